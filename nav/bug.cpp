@@ -1,0 +1,51 @@
+#include "bug.hpp"
+
+#include <fmt/format.h>
+
+namespace thicket {
+
+Bug::Bug(const PlannerSpec& spec, const VehicleLimits& vehicle, const glm::dvec2& start)
+    : pilot_(spec, vehicle), start_(start), goal_(*spec.goal_m), first_hand_(spec.hand == "right" ? Hand::right : Hand::left), hand_(first_hand_) {}
+
+Decision Bug::decide(const Senses& senses) {
+  pilot_.look(senses);
+  if (pilot_.at(goal_)) return {{}, Outcome::reached, "at the goal", fmt::format("{:.3f} m from the goal", distance_to_goal())};
+  if (!on_boundary_) {
+    if (!pilot_.blocked_toward(goal_)) return {pilot_.go_to(goal_), Outcome::running, "going to the goal", ""};
+    on_boundary_ = true;
+    hand_ = first_hand_;
+    pilot_.touch_wall_toward(goal_);
+    walk_ = BoundaryWalk(pilot_.pose(), goal_, pilot_.same_place());
+    mark("hit", walk_.hit());
+    on_hit();
+  }
+  walk_.advance(pilot_.pose());
+  return on_boundary();
+}
+
+Decision Bug::follow(const char* state) {
+  Decision decision{pilot_.follow(hand_), Outcome::running, state, ""};
+  if (pilot_.boxed_in()) decision.state = "boxed in: no heading keeps the clearance";
+  else decision.state += hand_ == Hand::left ? ", wall on the left hand" : ", wall on the right hand";
+  return decision;
+}
+
+Decision Bug::leave() {
+  on_boundary_ = false;
+  mark("leave", pilot_.pose().position);
+  return {pilot_.go_to(goal_), Outcome::running, "leaving the boundary for the goal", ""};
+}
+
+Decision Bug::unreachable(const std::string& why) const {
+  return {{},
+          Outcome::unreachable,
+          "gave up: there is no way",
+          fmt::format("{}; the boundary hit at ({:.2f}, {:.2f}) was followed for {:.1f} m, at the closest {:.2f} m from the goal at ({:.2f}, {:.2f})", why,
+                      walk_.hit().x, walk_.hit().y, walk_.length(), walk_.closest_distance(), walk_.closest().x, walk_.closest().y)};
+}
+
+void Bug::mark(const char* label, const glm::dvec2& at) { marks_.push_back({Mark::Kind::point, label, at, at}); }
+
+void Bug::mark_segment(const char* label, const glm::dvec2& from, const glm::dvec2& to) { marks_.push_back({Mark::Kind::segment, label, from, to}); }
+
+}  // namespace thicket

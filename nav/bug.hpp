@@ -1,0 +1,49 @@
+// What Bug1 and Bug2 have in common: go to the goal until something is in the way, walk along it. Private to the room.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "boundary_walk.hpp"
+#include "pilot.hpp"
+
+namespace thicket {
+
+class Bug : public Planner {
+ public:
+  Bug(const PlannerSpec& spec, const VehicleLimits& vehicle, const glm::dvec2& start);
+
+  Decision decide(const Senses& senses) final;
+  std::vector<Mark> marks() const override { return marks_; }
+
+ protected:
+  /// One decision on the boundary, `walk()` being up to date.
+  virtual Decision on_boundary() = 0;
+  /// What to remember when a boundary is met.
+  virtual void on_hit() {}
+
+  Decision follow(const char* state);
+  Decision leave();
+  Decision unreachable(const std::string& why) const;
+
+  Pilot& pilot() { return pilot_; }
+  const Pilot& pilot() const { return pilot_; }
+  const BoundaryWalk& walk() const { return walk_; }
+  const glm::dvec2& start() const { return start_; }
+  const glm::dvec2& goal() const { return goal_; }
+  double distance_to_goal() const { return pilot_.distance_to(goal_); }
+  void mark(const char* label, const glm::dvec2& at);
+  void mark_segment(const char* label, const glm::dvec2& from, const glm::dvec2& to);
+  void turn_round() { hand_ = other(hand_); }
+
+ private:
+  Pilot pilot_;
+  glm::dvec2 start_, goal_;
+  Hand first_hand_;
+  Hand hand_;
+  bool on_boundary_ = false;
+  BoundaryWalk walk_;
+  std::vector<Mark> marks_;
+};
+
+}  // namespace thicket

@@ -1,0 +1,62 @@
+// What a sensor tells the rest of the program: plain data, no physics.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+namespace thicket {
+
+/// Which side of matter an echo comes from. A receiver tells them by the extended return that matter gives between its edges.
+enum class Edge : std::uint8_t {
+  front,  ///< from the open into matter
+  inner,  ///< from one matter into another
+  back,   ///< out of matter into the open
+};
+
+/// One return of a beam.
+struct Echo {
+  double range = 0.0;              ///< m from the sensor, along the beam, >= 0
+  float amplitude = 0.0f;          ///< field quantity, its square is a power; 1 is a perfect reflector at normal incidence at the same range
+  float incidence_cosine = 1.0f;   ///< of the angle between beam and surface normal, 0 (grazing) ... 1
+  Edge edge = Edge::front;
+};
+
+/// Why a beam senses no farther.
+enum class BeamEnd : std::uint8_t {
+  open,       ///< it went to the end of the sensor's range
+  stopped,    ///< at the surface of opaque matter
+  exhausted,  ///< inside matter, its penetration budget used up
+};
+
+/// What one direction of the antenna measured.
+struct Beam {
+  double azimuth = 0.0;    ///< rad in the sensor's frame, counter-clockwise from its x axis
+  double elevation = 0.0;  ///< rad, upward
+  double sensed_range = 0.0;      ///< m; as far as the beam sensed anything (for an exhausted beam a point inside matter)
+  std::uint32_t first_echo = 0;   ///< index into Scan::echoes
+  std::uint32_t echo_count = 0;   ///< echoes by increasing range
+  BeamEnd end = BeamEnd::open;
+  bool starts_inside = false;     ///< the sensor itself is inside matter that it can see
+  std::int8_t side = 0;           ///< beam divergence: +1 the left side ray was used, -1 the right one, 0 the middle one
+};
+
+/// What one sensor measured at one time.
+struct Scan {
+  std::uint16_t sensor = 0;   ///< which sensor of the vehicle
+  std::uint64_t number = 0;   ///< counts this sensor's scans from 0
+  double time = 0.0;          ///< s
+  glm::dvec3 mount_position{0.0};                      ///< the sensor's frame in the vehicle's: x forward, y left, z up
+  glm::dquat mount_orientation{1.0, 0.0, 0.0, 0.0};
+  double range_min = 0.0, range_max = 0.0;  ///< m
+  std::uint64_t rays = 0;                   ///< rays traced for it
+  std::vector<Beam> beams;
+  std::vector<Echo> echoes;
+
+  std::span<const Echo> echoes_of(const Beam& beam) const { return std::span(echoes).subspan(beam.first_echo, beam.echo_count); }
+};
+
+}  // namespace thicket

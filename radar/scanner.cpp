@@ -1,0 +1,179 @@
+// The two sensors that scan a plane: penetrating radar and lidar.
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "echo_chain.hpp"
+#include "thicket/radar/sensor.hpp"
+
+namespace thicket {
+namespace {
+
+/// Shorter scans stay on one core: starting the others costs more than it saves (measured, tests/bench).
+constexpr std::size_t beams_per_task = 512;
+
+Pose mount_of(const ScannerSpec& spec) { return Pose::planar(spec.position_m.x, spec.position_m.y, spec.position_m.z, radians(spec.yaw_deg)); }
+
+std::vector<double> azimuths_of(const ScannerSpec& spec) {
+  const bool full_circle = spec.fov_deg >= 360.0;
+  const auto steps = static_cast<long>(std::floor(spec.fov_deg / spec.step_deg + 1e-9));
+  const long count = std::max(1L, full_circle ? steps : steps + 1);
+  std::vector<double> azimuths;
+  for (long i = 0; i < count; ++i) azimuths.push_back(radians(spec.step_deg * static_cast<double>(i) - (full_circle ? 180.0 : 0.5 * spec.step_deg * static_cast<double>(count - 1))));
+  return azimuths;
+}
+
+/// What both sensors share: beams in a plane, one ray each, one draw of range noise each.
+class Scanner : public Sensor {
+ public:
+  Scanner(const ScannerSpec& spec, std::uint16_t index) : Sensor(spec), index_(index), mount_(mount_of(spec)), azimuths_(azimuths_of(spec)) {
+    for (const double azimuth : azimuths_) directions_.emplace_back(std::cos(azimuth), std::sin(azimuth), 0.0);
+  }
+
+  void measure(const Scene& scene, const Pose& vehicle, double time, std::uint64_t number, const Random& random, Scan& scan) const final {
+    scan.sensor = index_;
+    scan.number = number;
+    scan.time = time;
+    scan.mount_position = mount_.position;
+    scan.mount_orientation = mount_.orientation;
+    scan.range_min = spec().range_min_m;
+    scan.range_max = spec().range_max_m;
+    scan.rays = azimuths_.size();
+    scan.beams.resize(azimuths_.size());
+    scan.echoes.clear();
+
+    const Pose sensor = vehicle * mount_;
+    const std::size_t tasks = (azimuths_.size() + beams_per_task - 1) / beams_per_task;
+    if (tasks <= 1) {
+      measure_beams(scene, sensor, random, scan, 0, azimuths_.size(), scan.echoes);
+    } else {
+      std::vector<std::vector<Echo>> echoes(tasks);
+      tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
+        const std::size_t first = task * beams_per_task;
+        measure_beams(scene, sensor, random, scan, first, std::min(azimuths_.size(), first + beams_per_task), echoes[task]);
+      });
+      for (std::size_t task = 0; task < tasks; ++task) {
+        const auto offset = static_cast<std::uint32_t>(scan.echoes.size());
+        const std::size_t first = task * beams_per_task;
+        for (std::size_t b = first; b < std::min(azimuths_.size(), first + beams_per_task); ++b) scan.beams[b].first_echo += offset;
+        scan.echoes.insert(scan.echoes.end(), echoes[task].begin(), echoes[task].end());
+      }
+    }
+  }
+
+ protected:
+  /// The ray that stands for a beam. Sets `beam.side` where it is not the middle one.
+  virtual Ray ray(const Pose& sensor, const glm::dvec3& direction, std::size_t, std::uint64_t, const Random&, Beam&) const {
+    return {sensor.position, sensor.orientation * direction, spec().range_max_m};
+  }
+  virtual void trace(const Scene& scene, std::span<const Ray> rays, std::span<Beam> beams, std::vector<Echo>& echoes) const = 0;
+
+ private:
+  void measure_beams(const Scene& scene, const Pose& sensor, const Random& random, Scan& scan, std::size_t first, std::size_t end, std::vector<Echo>& echoes) const {
+    std::vector<Ray> rays;
+    rays.reserve(end - first);
+    for (std::size_t b = first; b < end; ++b) {
+      Beam& beam = scan.beams[b];
+      beam = Beam{};
+      beam.azimuth = azimuths_[b];
+      rays.push_back(ray(sensor, directions_[b], b, scan.number, random, beam));
+    }
+    const std::span<Beam> beams(scan.beams.data() + first, end - first);
+    trace(scene, rays, beams, echoes);
+    if (spec().range_noise_m <= 0.0) return;
+    for (std::size_t b = first; b < end; ++b) {
+      // One draw a beam, the jitter of its trigger: echoes of one beam keep their order and their distances.
+      const double shift = spec().range_noise_m * random.normal(scan.number, static_cast<std::uint32_t>(b), RandomUse::range_noise, 0)[0];
+      const Beam& beam = scan.beams[b];
+      for (std::uint32_t e = 0; e < beam.echo_count; ++e) {
+        double& range = echoes[beam.first_echo + e].range;
+        range = std::max(0.0, range + shift);
+      }
+      if (beam.end != BeamEnd::open) scan.beams[b].sensed_range = std::max(0.0, beam.sensed_range + shift);
+    }
+  }
+
+  std::uint16_t index_;
+  Pose mount_;
+  std::vector<double> azimuths_;
+  std::vector<glm::dvec3> directions_;
+};
+
+class ScanningRadar final : public Scanner {
+ public:
+  ScanningRadar(const ScanningRadarSpec& spec, std::uint16_t index)
+      : Scanner(spec, index), radar_(spec), limits_{spec.range_min_m, spec.range_max_m, spec.penetration_budget_db, std::pow(10.0, 0.1 * spec.detection_floor_db)} {}
+
+  bool detects(const Material& material) const override { return visible(material, limits_.floor_power); }
+
+ private:
+  Ray ray(const Pose& sensor, const glm::dvec3& direction, std::size_t beam_index, std::uint64_t number, const Random& random, Beam& beam) const override {
+    Ray middle = Scanner::ray(sensor, direction, beam_index, number, random, beam);
+    if (radar_.divergence == "none") return middle;
+    // Choose first, trace one (2012: each of the three rays has an equal chance to give the range).
+    const double chance = random.uniform(number, static_cast<std::uint32_t>(beam_index), RandomUse::ray_choice, 0)[0];
+    beam.side = chance < 1.0 / 3.0 ? 0 : chance < 2.0 / 3.0 ? 1 : -1;
+    const glm::dvec3 left = sensor.orientation * glm::dvec3(-direction.y, direction.x, 0.0);
+    const glm::dvec3 offset = static_cast<double>(beam.side) * radar_.side_offset_m * left;
+    if (radar_.side_geometry == "parallel") {
+      middle.origin += offset;
+    } else {
+      middle.direction = glm::normalize(middle.direction * radar_.range_max_m + offset);
+    }
+    return middle;
+  }
+
+  void trace(const Scene& scene, std::span<const Ray> rays, std::span<Beam> beams, std::vector<Echo>& echoes) const override {
+    CrossingLists lists;
+    scene.crossings(rays, limits_.budget_db, lists);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      trace_echoes(scene.world(), lists[i], rays[i].direction, limits_, beams[i], echoes);
+      Beam& beam = beams[i];
+      if (radar_.first_echo_only && beam.echo_count > 0) {
+        echoes.resize(beam.first_echo + 1);
+        beam.echo_count = 1;
+        beam.end = BeamEnd::stopped;
+        beam.sensed_range = echoes.back().range;
+      }
+    }
+  }
+
+  ScanningRadarSpec radar_;
+  EchoLimits limits_;
+};
+
+class Lidar final : public Scanner {
+ public:
+  Lidar(const LidarSpec& spec, std::uint16_t index) : Scanner(spec, index) {}
+
+  bool detects(const Material& material) const override { return material.stops_light; }
+
+ private:
+  void trace(const Scene& scene, std::span<const Ray> rays, std::span<Beam> beams, std::vector<Echo>& echoes) const override {
+    std::vector<Hit> hits(rays.size());
+    scene.closest_hits(rays, Stops::light, hits);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      Beam& beam = beams[i];
+      beam.first_echo = static_cast<std::uint32_t>(echoes.size());
+      beam.sensed_range = std::min(hits[i].range, spec().range_max_m);
+      if (hits[i].solid == no_solid) continue;
+      beam.end = BeamEnd::stopped;
+      if (hits[i].range < spec().range_min_m) continue;
+      const double cosine = std::min(1.0, std::abs(glm::dot(hits[i].normal, rays[i].direction)));
+      echoes.push_back({hits[i].range, static_cast<float>(std::sqrt(cosine)), static_cast<float>(cosine), Edge::front});
+      beam.echo_count = 1;
+    }
+  }
+};
+
+}  // namespace
+
+std::shared_ptr<const Sensor> make_sensor(const SensorSpec& spec, std::uint16_t index) {
+  if (const auto* lidar = std::get_if<LidarSpec>(&spec)) return std::make_shared<Lidar>(*lidar, index);
+  return std::make_shared<ScanningRadar>(std::get<ScanningRadarSpec>(spec), index);
+}
+
+}  // namespace thicket

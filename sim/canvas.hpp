@@ -1,0 +1,48 @@
+// A sheet to draw pictures on: Cairo behind the few calls that the pictures of the program need. Private to the room.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "thicket/base/result.hpp"
+
+struct _cairo;
+struct _cairo_surface;
+
+namespace thicket {
+
+struct Colour {
+  double red = 0.0, green = 0.0, blue = 0.0, alpha = 1.0;
+};
+
+/// Pixels, x right, y down.
+class Canvas {
+ public:
+  Canvas(int width, int height, const Colour& background);
+
+  void rectangle(const glm::dvec2& corner, const glm::dvec2& size, const Colour& fill);
+  void frame(const glm::dvec2& corner, const glm::dvec2& size, const Colour& line, double width);
+  void polyline(const std::vector<glm::dvec2>& points, const Colour& line, double width, bool dashed = false);
+  void disc(const glm::dvec2& centre, double radius, const Colour& fill);
+  void circle(const glm::dvec2& centre, double radius, const Colour& line, double width);
+  void cross(const glm::dvec2& centre, double size, const Colour& line, double width);
+  /// Baseline at `at`, to its right.
+  void text(const std::string& words, const glm::dvec2& at, double size, const Colour& colour);
+  double text_width(const std::string& words, double size);
+  /// An image of packed 0xAARRGGBB pixels, opaque, scaled without smoothing.
+  void image(const std::vector<std::uint32_t>& pixels, int columns, int rows, const glm::dvec2& corner, double scale);
+
+  /// PNG, written whole or not at all.
+  Result<Done> write(const std::filesystem::path& file) const;
+
+ private:
+  std::shared_ptr<_cairo_surface> surface_;
+  std::shared_ptr<_cairo> context_;
+};
+
+}  // namespace thicket

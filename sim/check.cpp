@@ -1,0 +1,88 @@
+#include "thicket/sim/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "thicket/worlds/truth.hpp"
+
+namespace thicket {
+namespace {
+
+/// Solids by what is wrong with them: "3 solids ('a', 'b', ...)".
+std::string name_some(const std::vector<std::string>& names) {
+  std::string text = fmt::format("{} solid{} (", names.size(), names.size() == 1 ? "" : "s");
+  for (std::size_t i = 0; i < names.size() && i < 3; ++i) text += fmt::format("{}'{}'", i ? ", " : "", names[i]);
+  return text + (names.size() > 3 ? ", ...)" : ")");
+}
+
+void warn_of_stealth(const Simulation& simulation, std::vector<std::string>& warnings) {
+  const Mission& mission = simulation.mission();
+  const World& world = simulation.stage().scene.world();
+  const Sensor& sensor = *simulation.stage().sensors.front();
+  const Hull hull = mission.vehicle.hull();
+  const double ground = mission.start.z_m, plane = ground + sensor.spec().position_m.z;
+  std::map<std::string, std::vector<std::string>> undetected;  // material -> solids
+  std::vector<std::string> off_plane;
+  for (const Solid& solid : world.solids) {
+    const Material& material = world.materials[solid.material];
+    const double meets_hull = half_width_between(solid, ground + hull.z_low, ground + hull.z_high);
+    if (!material.stops_motion || meets_hull <= 0.0) continue;
+    if (!sensor.detects(material)) {
+      undetected[material.name].push_back(solid.name);
+    } else if (meets_hull - half_width_between(solid, plane, plane) > 0.5 * mission.planner.clearance_m) {
+      off_plane.push_back(solid.name);
+    }
+  }
+  for (const auto& [material, solids] : undetected)
+    warnings.push_back(fmt::format("{} of material '{}' stop motion but would not be detected by sensor '{}': raise the material's reflectivity or lower the sensor's "
+                                   "detection_floor_db",
+                                   name_some(solids), material, sensor.spec().name));
+  if (!off_plane.empty())
+    warnings.push_back(fmt::format("{} reach into the hull's heights but not, or much less, into the plane of sensor '{}' at z = {:.2f} m: they would not be seen in time; change "
+                                   "the sensor's position_m",
+                                   name_some(off_plane), sensor.spec().name, plane));
+}
+
+}  // namespace
+
+std::vector<std::string> mission_warnings(const Simulation& simulation) {
+  std::vector<std::string> warnings;
+  const Mission& mission = simulation.mission();
+  warn_of_stealth(simulation, warnings);
+  const double at_start = simulation.clearance().distance;
+  if (at_start < mission.planner.clearance_m && at_start > 0.0)
+    warnings.push_back(fmt::format("the start is {:.2f} m from matter, nearer than the clearance of {} m", at_start, mission.planner.clearance_m));
+  const auto warn_of_target = [&](const glm::dvec2& target, const std::string& what) {
+    const Clearance there = simulation.stage().scene.clearance(mission.vehicle.hull(), {target, mission.start.z_m}, mission.planner.clearance_m);
+    if (there.distance <= 0.0)
+      warnings.push_back(fmt::format("{} is where the hull would touch '{}': it cannot be reached", what, simulation.stage().scene.world().solids[there.solid].name));
+    else if (there.distance < mission.planner.clearance_m)
+      warnings.push_back(fmt::format("{} is {:.2f} m from '{}', nearer than the clearance of {} m: the planner may not get there", what, there.distance,
+                                     simulation.stage().scene.world().solids[there.solid].name, mission.planner.clearance_m));
+  };
+  if (mission.planner.name != "waypoints" && mission.planner.goal_m) warn_of_target(*mission.planner.goal_m, "the goal");
+  if (mission.planner.name == "waypoints")
+    for (std::size_t i = 0; i < mission.planner.waypoints_m.size(); ++i) warn_of_target(mission.planner.waypoints_m[i], fmt::format("way-point {}", i + 1));
+  return warnings;
+}
+
+std::string describe_scene(const Scene& scene) {
+  const World& world = scene.world();
+  std::string text = fmt::format("world      {}\n", world.name);
+  if (!world.source.empty()) text += fmt::format("source     {}\n", world.source);
+  text += fmt::format("solids     {} ({} convex parts)\n", world.solids.size(), scene.parts());
+  for (std::size_t m = 0; m < world.materials.size(); ++m) {
+    const Material& material = world.materials[m];
+    const auto users = std::count_if(world.solids.begin(), world.solids.end(), [m](const Solid& s) { return s.material == m; });
+    text += fmt::format("material   {:<12} {:>4} solids, reflectivity {}, {} dB/m, {} light, {} motion\n", material.name, users, material.reflectivity,
+                        material.attenuation_db_per_m, material.stops_light ? "stops" : "passes", material.stops_motion ? "stops" : "passes");
+  }
+  if (const auto box = extent(world))
+    text += fmt::format("extent     x {:.2f} to {:.2f}, y {:.2f} to {:.2f}, z {:.2f} to {:.2f} m\n", box->low.x, box->high.x, box->low.y, box->high.y, box->low.z, box->high.z);
+  text += fmt::format("memory     {:.1f} MB in the ray tracer\n", static_cast<double>(scene.memory_bytes()) / 1e6);
+  return text;
+}
+
+}  // namespace thicket

@@ -1,0 +1,94 @@
+// Commands that look at files without running them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "program.hpp"
+#include "thicket/base/document.hpp"
+#include "thicket/base/files.hpp"
+#include "thicket/sim/check.hpp"
+
+namespace thicket::cli {
+namespace {
+
+int complain(const Error& error) {
+  fmt::print(stderr, "{}\n", error.message);
+  return bad_input;
+}
+
+/// A TOML file that names a world is a mission.
+bool is_mission(const std::filesystem::path& file) {
+  if (file.extension() != ".toml") return false;
+  const auto document = read_document(file);
+  return document && (document->find("world") || document->find("planner") || document->find("sensor"));
+}
+
+std::string text_of(const Node& document, const char* key) {
+  const Node* node = document.find(key);
+  const auto* text = node ? std::get_if<std::string>(&node->content) : nullptr;
+  return text ? *text : "";
+}
+
+int check_world(const std::filesystem::path& file) {
+  auto world = read_world(file);
+  if (!world) return complain(world.error());
+  const auto scene = Scene::build(std::move(*world));
+  if (!scene) return complain(scene.error());
+  fmt::print("{}ok\n", describe_scene(*scene));
+  return done;
+}
+
+int check_mission(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  const auto mission = read_mission(file, overrides);
+  if (!mission) return complain(mission.error());
+  const auto simulation = Simulation::create(*mission);
+  if (!simulation) return complain(simulation.error());
+  fmt::print("mission    {}\n{}", mission->name, describe_scene(simulation->stage().scene));
+  const auto warnings = mission_warnings(*simulation);
+  for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
+  fmt::print("ok{}\n", warnings.empty() ? "" : fmt::format(", with {} warning{}", warnings.size(), warnings.size() == 1 ? "" : "s"));
+  return done;
+}
+
+}  // namespace
+
+int check_file(const std::string& name, const std::vector<Override>& overrides) {
+  const auto file = find_input(name);
+  if (file.empty()) return complain({fmt::format("there is no file '{}'; shipped ones are listed by `thicket worlds`", name)});
+  return is_mission(file) ? check_mission(file, overrides) : check_world(file);
+}
+
+int list_worlds() {
+  const auto root = shipped_root() / "worlds" / "data";
+  std::vector<std::filesystem::path> files;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root, none))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  if (files.empty()) return complain({fmt::format("no shipped worlds were found in {}: set THICKET_DATA to the folder that holds worlds/data", root.string())});
+  std::sort(files.begin(), files.end());
+  std::string worlds, missions;
+  for (const auto& file : files) {
+    const auto document = read_document(file);
+    if (!document) continue;
+    const bool mission = document->find("world") != nullptr;
+    const std::string path = std::filesystem::relative(file, shipped_root()).generic_string();
+    (mission ? missions : worlds) += fmt::format("  {:<46} {}\n", path, text_of(*document, mission ? "description" : "name"));
+  }
+  fmt::print("missions (thicket run FILE)\n{}\nworlds (thicket run --world FILE --start X,Y,YAW_DEG --goal X,Y --planner bug2)\n{}", missions, worlds);
+  return done;
+}
+
+int help_topic(const std::string& topic) {
+  if (topic == "mission") {
+    fmt::print("A mission file is TOML. `thicket run FILE --set section.key=value` changes any of its keys.\n\n{}", describe_mission_file());
+  } else if (topic == "world") {
+    fmt::print("A world file is TOML; a map_server YAML is a world too.\n\n{}", describe_world_file());
+  } else {
+    return complain({fmt::format("there is no help on '{}', expected mission or world; for the commands: thicket --help", topic)});
+  }
+  return done;
+}
+
+}  // namespace thicket::cli

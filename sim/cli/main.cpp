@@ -1,0 +1,131 @@
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "program.hpp"
+#include "thicket/sim/outputs.hpp"
+
+namespace {
+
+using thicket::Override;
+using namespace thicket::cli;
+
+/// "1,2,3" in `count` pieces (or fewer, as long as there are `least`); nothing if it is not so.
+std::optional<std::vector<std::string>> split(const std::string& text, std::size_t least, std::size_t most) {
+  std::vector<std::string> pieces = CLI::detail::split(text, ',');
+  if (pieces.size() < least || pieces.size() > most) return std::nullopt;
+  return pieces;
+}
+
+/// Flags that stand for mission keys.
+struct MissionFlags {
+  std::string world, start, goal, planner, map_image;
+  std::vector<std::string> sets;
+  std::optional<std::int64_t> seed;
+
+  void add_to(CLI::App& app) {
+    app.add_option("--world", world, "world file or map_server YAML")->type_name("FILE");
+    app.add_option("--map-image", map_image, "for a map_server world: an image instead of the one that it names")->type_name("FILE");
+    app.add_option("--start", start, "where the vehicle starts: metres and degrees")->type_name("X,Y,YAW_DEG");
+    app.add_option("--goal", goal, "where it is to go, metres")->type_name("X,Y");
+    app.add_option("--planner", planner, "bug1, bug2 or waypoints")->type_name("NAME");
+    app.add_option("--set", sets, "any key of `thicket help mission`, for example planner.clearance_m=0.5; may be given often")->type_name("KEY=VALUE")->allow_extra_args(false);
+    app.add_option("--seed", seed, "seed of everything random")->type_name("N");
+  }
+
+  /// In the order that lets --set have the last word.
+  std::optional<std::vector<Override>> overrides() const {
+    std::vector<Override> list;
+    const auto text = [&list](const char* key, const std::string& value, const char* flag) {
+      if (!value.empty()) list.push_back({key, thicket::toml_string(value), flag});
+    };
+    text("world", world, "--world");
+    text("world_image", map_image, "--map-image");
+    text("planner.name", planner, "--planner");
+    if (!start.empty()) {
+      const auto pieces = split(start, 2, 3);
+      if (!pieces) return fail("--start is '" + start + "', expected X,Y,YAW_DEG, for example 1.5,-2,90");
+      const char* keys[] = {"start.x_m", "start.y_m", "start.yaw_deg"};
+      for (std::size_t i = 0; i < pieces->size(); ++i) list.push_back({keys[i], (*pieces)[i], "--start"});
+    }
+    if (!goal.empty()) {
+      if (!split(goal, 2, 2)) return fail("--goal is '" + goal + "', expected X,Y, for example 8,0");
+      list.push_back({"planner.goal_m", "[" + goal + "]", "--goal"});
+    }
+    if (seed) list.push_back({"seed", fmt::format("{}", *seed), "--seed"});
+    for (const std::string& set : sets) {
+      const auto equals = set.find('=');
+      if (equals == std::string::npos) return fail("--set is '" + set + "', expected KEY=VALUE, for example planner.clearance_m=0.5");
+      list.push_back({set.substr(0, equals), set.substr(equals + 1), "--set " + set.substr(0, equals)});
+    }
+    return list;
+  }
+
+  static std::nullopt_t fail(const std::string& what) {
+    fmt::print(stderr, "{}\n", what);
+    return std::nullopt;
+  }
+};
+
+int dispatch(int argc, char** argv) {
+  CLI::App app{"Thicket simulates robots that find their way by radar."};
+  app.name("thicket");
+  app.set_version_flag("--version", thicket::version());
+  app.require_subcommand(1);
+  app.footer("First steps:\n  thicket worlds\n  thicket run worlds/data/foliage_wall/bug2.toml\n  thicket help mission\n"
+             "Exit codes of run: 0 reached, 1 internal error, 2 bad usage or file, 3 unreachable, 4 stopped, 5 collided.");
+
+  RunArguments arguments;
+  MissionFlags run_flags, check_flags;
+  CLI::App& run = *app.add_subcommand("run", "run a mission and leave its results in a folder");
+  run.add_option("mission", arguments.mission, "mission file; shipped ones are found from any directory. Without one: --world, --start, --goal, --planner")->type_name("FILE");
+  run_flags.add_to(run);
+  run.add_option("--out", arguments.out, "folder for the results (default: thicket-out/NAME)")->type_name("DIR");
+  run.add_option("--realtime-factor", arguments.realtime_factor, "simulated seconds per second at most; 0 is as fast as possible")->check(CLI::NonNegativeNumber);
+  run.add_option("--threads", arguments.threads, "threads to use; the result does not depend on it (default: all cores)")->check(CLI::Range(1, 1024));
+  run.add_flag("--quiet", arguments.quiet, "no progress, no warnings, no summary");
+  run.add_flag("--json", arguments.json, "print result.json instead of the summary");
+
+  std::string file, topic;
+  CLI::App& check = *app.add_subcommand("check", "tell what is wrong with a world or mission file, and what to beware of");
+  check.add_option("file", file, "world or mission file")->required();
+  check_flags.add_to(check);
+  CLI::App& worlds = *app.add_subcommand("worlds", "list the worlds and missions that are shipped");
+  CLI::App& help = *app.add_subcommand("help", "explain every key of a mission or world file");
+  help.add_option("topic", topic, "mission or world")->required();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? done : bad_input;
+  }
+  if (run.parsed()) {
+    auto overrides = run_flags.overrides();
+    if (!overrides) return bad_input;
+    if (arguments.mission.empty() && run_flags.world.empty()) {
+      fmt::print(stderr, "nothing to run: name a mission (`thicket worlds` lists them), or give --world, --start and --goal\n");
+      return bad_input;
+    }
+    arguments.overrides = std::move(*overrides);
+    return run_mission(arguments);
+  }
+  if (check.parsed()) {
+    const auto overrides = check_flags.overrides();
+    return overrides ? check_file(file, *overrides) : bad_input;
+  }
+  if (worlds.parsed()) return list_worlds();
+  return help_topic(topic);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const std::exception& fault) {
+    std::fprintf(stderr, "thicket: internal error: %s\n", fault.what());
+    return internal_error;
+  }
+}

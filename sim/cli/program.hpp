@@ -1,0 +1,30 @@
+// The commands of the program, one function each; main.cpp parses the command line and calls them. Each returns the program's exit code.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "thicket/sim/mission.hpp"
+
+namespace thicket::cli {
+
+/// 0 reached (or way-points done), 1 internal error, 2 bad usage or file, 3 unreachable, 4 stopped (limit, stuck, interrupted), 5 collided.
+enum ExitCode { done = 0, internal_error = 1, bad_input = 2, unreachable = 3, stopped = 4, collided = 5 };
+
+struct RunArguments {
+  std::string mission;
+  std::vector<Override> overrides;
+  std::string out;  ///< empty: `thicket-out/NAME`
+  double realtime_factor = 0.0;
+  int threads = 0;  ///< 0: as many as there are cores
+  bool quiet = false;
+  bool json = false;
+};
+
+int run_mission(const RunArguments& arguments);
+int check_file(const std::string& file, const std::vector<Override>& overrides);
+int list_worlds();
+int help_topic(const std::string& topic);
+
+}  // namespace thicket::cli

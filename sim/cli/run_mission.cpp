@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+
+#include <glm/geometric.hpp>
+
+#include "program.hpp"
+#include "thicket/base/files.hpp"
+#include "thicket/sim/check.hpp"
+#include "thicket/sim/outputs.hpp"
+#include "thicket/sim/run.hpp"
+
+namespace thicket::cli {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+void on_interrupt(int) { interrupted = 1; }
+
+/// One line that is written over on a terminal, plain lines in a log.
+class Progress {
+ public:
+  explicit Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()) {}
+
+  void show(const Simulation& simulation) {
+    if (quiet_) return;
+    const auto now = Clock::now();
+    if (terminal_) {
+      if (now - shown_ < std::chrono::milliseconds(100)) return;
+      fmt::print(stderr, "\r\033[K{}", line(simulation, now));
+    } else {
+      if (now - shown_ < std::chrono::seconds(5)) return;
+      if (shown_ != Clock::time_point{}) fmt::print(stderr, "{}\n", line(simulation, now));
+    }
+    std::fflush(stderr);
+    shown_ = now;
+  }
+  void end() const {
+    if (!quiet_ && terminal_) fmt::print(stderr, "\r\033[K");
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string line(const Simulation& simulation, Clock::time_point now) const {
+    const double wall = std::chrono::duration<double>(now - start_).count();
+    const auto& goal = simulation.mission().planner.goal_m;
+    const std::string distance = goal ? fmt::format(", {:.1f} m to the goal", glm::distance(simulation.vehicle().pose.position, *goal)) : "";
+    return fmt::format("{:8.1f} s simulated, {:.0f} x real time{}, {}", simulation.time(), wall > 0.0 ? simulation.time() / wall : 0.0, distance, simulation.decision().state);
+  }
+
+  bool quiet_, terminal_;
+  Clock::time_point start_, shown_{};
+};
+
+int exit_code(const Verdict& verdict) {
+  switch (verdict.kind) {
+    case Verdict::Kind::reached: return done;
+    case Verdict::Kind::unreachable: return unreachable;
+    case Verdict::Kind::stopped: return stopped;
+    case Verdict::Kind::collided: return collided;
+  }
+  return internal_error;
+}
+
+int complain(const Error& error) {
+  fmt::print(stderr, "{}\n", error.message);
+  return bad_input;
+}
+
+std::string summary(const Simulation& simulation, double wall, const std::filesystem::path& folder) {
+  const RunTotals& totals = simulation.totals();
+  return fmt::format("{}: {}\n  {:.1f} s simulated in {:.2f} s ({:.0f} x real time), path {:.1f} m, least clearance {:.2f} m, {} scans\n  written to {}\n",
+                     to_string(simulation.verdict()->kind), simulation.verdict()->reason, simulation.time(), wall, wall > 0.0 ? simulation.time() / wall : 0.0,
+                     totals.path_length, totals.least_clearance, totals.scans, folder.string());
+}
+
+}  // namespace
+
+int run_mission(const RunArguments& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  std::filesystem::path file;
+  if (!arguments.mission.empty()) {
+    file = find_input(arguments.mission);
+    if (file.empty()) return complain({fmt::format("there is no mission '{}'; shipped ones are listed by `thicket worlds`", arguments.mission)});
+  }
+  const auto mission = read_mission(file, arguments.overrides);
+  if (!mission) return complain(mission.error());
+  std::optional<tbb::global_control> control;
+  if (arguments.threads > 0) control.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.threads));
+  auto simulation = Simulation::create(*mission);
+  if (!simulation) return complain(simulation.error());
+  if (!arguments.quiet)
+    for (const std::string& warning : mission_warnings(*simulation)) fmt::print(stderr, "warning: {}\n", warning);
+  const std::filesystem::path folder = arguments.out.empty() ? std::filesystem::path("thicket-out") / mission->name : std::filesystem::path(arguments.out);
+
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  Progress progress(arguments.quiet);
+  Trajectory trajectory;
+  RunOptions options;
+  options.realtime_factor = arguments.realtime_factor;
+  options.interrupted = [] { return interrupted != 0; };
+  options.progress = [&progress](const Simulation& s) { progress.show(s); };
+  const double wall_start = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double wall_run = run(*simulation, trajectory, options);
+  progress.end();
+
+  const auto written = write_outputs(folder, *simulation, trajectory, wall_start, wall_run);
+  if (!written) return complain(written.error());
+  if (arguments.json) {
+    fmt::print("{}", result_json(*simulation));
+  } else if (!arguments.quiet) {
+    fmt::print("{}", summary(*simulation, wall_run, folder));
+  }
+  return exit_code(*simulation->verdict());
+}
+
+}  // namespace thicket::cli

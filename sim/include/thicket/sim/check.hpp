@@ -1,0 +1,18 @@
+// What a person should know of a world or a mission before it runs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "thicket/sim/simulation.hpp"
+
+namespace thicket {
+
+/// Warnings, a sentence each: matter that stops motion and would not be detected by the sensor that drives the bumpers, because of its reflectivity or because
+/// the plane of the sensor passes above or below it; a start inside the clearance; a goal in matter or in its clearance.
+std::vector<std::string> mission_warnings(const Simulation& simulation);
+
+/// A few lines about a world: solids, parts, materials, extent, memory.
+std::string describe_scene(const Scene& scene);
+
+}  // namespace thicket

@@ -1,0 +1,34 @@
+// What a run leaves behind.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "thicket/base/result.hpp"
+#include "thicket/sim/simulation.hpp"
+#include "thicket/sim/trajectory.hpp"
+
+namespace thicket {
+
+/// Version of the program, as in `result.json`.
+const char* version();
+
+/// `result.json`: verdict, reason, simulated time, path length, ... The same run gives the same bytes; wall times are not in it.
+std::string result_json(const Simulation& simulation);
+
+/// `timing.json`: wall time, real-time factor, and where the time went. `wall_run_s` is stepping alone, start-up and files apart.
+std::string timing_json(const Simulation& simulation, double wall_start_s, double wall_run_s);
+
+/// `map.png`: the map in the colours of Rozeboom 2012 (blue never sensed, white sensed, grey clear, black obstacle; here also what was sensed through), with path, start, goal,
+/// the planner's marks and a scale bar.
+Result<Done> write_map_picture(const std::filesystem::path& file, const Simulation& simulation, const Trajectory& trajectory);
+
+/// Writes all of the mission's outputs into a folder, which is made if need be.
+Result<Done> write_outputs(const std::filesystem::path& folder, const Simulation& simulation, const Trajectory& trajectory, double wall_start_s, double wall_run_s);
+
+/// Share of the free area inside a region (x_min, y_min, x_max, y_max) that the map knows, judged at cell centres against the world itself, at the height
+/// of the first sensor. Nothing if the region has no free cell.
+std::optional<double> observed_share(const Simulation& simulation, const glm::dvec4& region);
+
+}  // namespace thicket

@@ -1,0 +1,108 @@
+// A run as a value: it can be stepped, copied, driven by the window or by a test.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "thicket/base/result.hpp"
+#include "thicket/nav/bumper.hpp"
+#include "thicket/nav/occupancy_map.hpp"
+#include "thicket/nav/planner.hpp"
+#include "thicket/radar/sensor.hpp"
+#include "thicket/sim/mission.hpp"
+#include "thicket/sim/vehicle.hpp"
+#include "thicket/worlds/scene.hpp"
+
+namespace thicket {
+
+/// How a run ended.
+struct Verdict {
+  enum class Kind { reached, unreachable, stopped, collided };
+  Kind kind = Kind::stopped;
+  std::string reason;
+};
+const char* to_string(Verdict::Kind kind);
+
+/// Wall time spent in the parts of a run, s.
+struct PhaseTimes {
+  double trace = 0.0, map = 0.0, plan = 0.0, contact = 0.0;
+};
+
+/// What a run adds up.
+struct RunTotals {
+  double path_length = 0.0;                  ///< m
+  double least_clearance = infinity;         ///< m, between hull and matter that stops motion
+  std::uint64_t scans = 0, rays = 0, decisions = 0;
+};
+
+/// What does not change during a run, shared by all copies of its simulation.
+struct Stage {
+  Mission mission;
+  Scene scene;
+  std::vector<std::shared_ptr<const Sensor>> sensors;
+};
+
+class Simulation {
+ public:
+  /// Reads the mission's world and makes everything ready; nothing has happened yet.
+  static Result<Simulation> create(const Mission& mission);
+
+  Simulation(const Simulation& other);
+  Simulation& operator=(const Simulation& other);
+  Simulation(Simulation&&) = default;
+  Simulation& operator=(Simulation&&) = default;
+  ~Simulation() = default;
+
+  /// One step of `mission.step_s`: sensors that are due, map, planner, motion, contact, limits. Does nothing after the verdict. Returns whether the run goes on.
+  bool step();
+  /// Ends the run with the verdict stopped, if it has none yet.
+  void stop(const std::string& reason);
+
+  const Stage& stage() const { return *stage_; }
+  const Mission& mission() const { return stage_->mission; }
+  /// Time is steps times the step: it does not drift.
+  double time() const { return static_cast<double>(steps_) * stage_->mission.step_s; }
+  std::uint64_t steps() const { return steps_; }
+  const DifferentialDrive& vehicle() const { return vehicle_; }
+  Pose vehicle_pose() const;  ///< in space, on the start's height
+  const Clearance& clearance() const { return clearance_; }  ///< as found in the last step; looked for only as far as the least so far
+  const RunTotals& totals() const { return totals_; }
+  const PhaseTimes& phase_times() const { return times_; }
+  const std::optional<Verdict>& verdict() const { return verdict_; }
+
+  const std::vector<Scan>& scans() const { return scans_; }  ///< the last scan of each sensor; without beams before the first
+  const BumperRing& bumpers() const { return bumpers_; }
+  const OccupancyMap& map() const { return map_; }
+  const Decision& decision() const { return decision_; }  ///< the planner's last
+  std::vector<Mark> marks() const { return planner_->marks(); }
+
+ private:
+  Simulation(std::shared_ptr<const Stage> stage, std::unique_ptr<Planner> planner);
+
+  void sense();
+  void decide();
+  void move();
+  void check_limits();
+
+  std::shared_ptr<const Stage> stage_;
+  std::uint64_t steps_ = 0;
+  DifferentialDrive vehicle_;
+  std::unique_ptr<Planner> planner_;
+  BumperRing bumpers_;
+  Contour contour_;
+  OccupancyMap map_;
+  std::vector<Scan> scans_;
+  std::vector<std::uint64_t> scan_counts_;
+  Decision decision_;
+  Clearance clearance_;
+  RunTotals totals_;
+  PhaseTimes times_;
+  std::optional<Verdict> verdict_;
+  Pose2 stuck_pose_;           ///< where the vehicle was when it last got away
+  std::uint64_t stuck_step_ = 0;
+};
+
+}  // namespace thicket

@@ -1,0 +1,38 @@
+// The way that a vehicle went, as recorded.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "thicket/sim/simulation.hpp"
+
+namespace thicket {
+
+/// One moment of a run.
+struct TrajectoryPoint {
+  double time = 0.0;  ///< s
+  Pose2 pose;
+  double z = 0.0;
+  double speed = 0.0, turn_rate = 0.0;
+  std::string state;  ///< of the planner
+};
+
+/// A point per decision of the planner, and the last moment.
+class Trajectory {
+ public:
+  /// To be called before the first step and after every step.
+  void note(const Simulation& simulation);
+
+  const std::vector<TrajectoryPoint>& points() const { return points_; }
+
+  /// `time_s,x_m,y_m,z_m,yaw_deg,speed_m_s,turn_rate_deg_s,state`, digits that read back to the same bits.
+  std::string csv() const;
+  /// The TUM format: `time x y z qx qy qz qw`.
+  std::string tum() const;
+
+ private:
+  std::vector<TrajectoryPoint> points_;
+  std::uint64_t decisions_ = 0;
+};
+
+}  // namespace thicket

@@ -1,0 +1,277 @@
+#include "thicket/sim/mission.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "thicket/base/files.hpp"
+#include "thicket/base/text.hpp"
+
+namespace thicket {
+namespace {
+
+SectionOf<Mission> header_section() {
+  using S = Mission;
+  SectionOf<S> section("mission file", "at the top of the file, without a table header");
+  section.key("name", &S::name, "what the mission is called")
+      .key("description", &S::description, "one sentence, shown by `thicket worlds`")
+      .key("world", &S::world, "world file or map_server YAML, relative to this file, else a shipped one")
+      .required()
+      .key("world_image", &S::world_image, "for a map_server world: an image to read instead of the one that it names")
+      .key("world_height_m", &S::world_height_m, "m", above_up_to(0.0, 1e4), "for a map_server world: how high its matter is")
+      .key("world_unknown_is_matter", &S::world_unknown_is_matter, "for a map_server world: whether unknown cells are matter")
+      .key("seed", &S::seed, "", at_least(0.0), "of everything random: one seed, one result")
+      .key("step_s", &S::step_s, "s", between(1e-5, 0.2), "simulated time of a step");
+  return section;
+}
+
+const Section& start_section() {
+  using S = StartSpec;
+  static const Section section = SectionOf<S>("[start]", "where the vehicle starts")
+                                     .key("x_m", &S::x_m, "m", between(-1e9, 1e9), "east")
+                                     .key("y_m", &S::y_m, "m", between(-1e9, 1e9), "north")
+                                     .key("z_m", &S::z_m, "m", between(-1e9, 1e9), "height of the ground under it")
+                                     .key("yaw_deg", &S::yaw_deg, "deg", between(-36000.0, 36000.0), "heading, counter-clockwise from east");
+  return section;
+}
+
+const Section& limit_section() {
+  using S = LimitSpec;
+  static const Section section = SectionOf<S>("[limits]", "what ends a run with the verdict stopped")
+                                     .key("time_s", &S::time_s, "s", above_up_to(0.0, 1e9), "simulated time")
+                                     .key("distance_m", &S::distance_m, "m", above_up_to(0.0, 1e9), "distance driven")
+                                     .key("stuck_s", &S::stuck_s, "s", above_up_to(0.0, 1e9), "time without getting 5 cm away or turning");
+  return section;
+}
+
+const Section& output_section() {
+  using S = OutputSpec;
+  static const Section section =
+      SectionOf<S>("[output]", "which files a run leaves, beside result.json, timing.json and mission.toml")
+          .key("trajectory", &S::trajectory, "trajectory.csv and trajectory.tum")
+          .key("map", &S::map, "map.pgm and map.yaml")
+          .key("picture", &S::picture, "map.png")
+          .key("observed_region_m", &S::observed_region_m, "m", between(-1e9, 1e9),
+               "x_min, y_min, x_max, y_max: result.json tells which share of the free area in it was observed (from the world itself)");
+  return section;
+}
+
+struct Part {
+  const char* key;
+  const Section& (*section)();
+  void* (*object)(Mission&);
+};
+/// The tables of a mission file, sensors apart.
+const std::vector<Part>& parts() {
+  static const std::vector<Part> list = {
+      {"vehicle", &vehicle_section, [](Mission& m) -> void* { return &m.vehicle; }}, {"start", &start_section, [](Mission& m) -> void* { return &m.start; }},
+      {"bumpers", &bumper_section, [](Mission& m) -> void* { return &m.bumpers; }},  {"planner", &planner_section, [](Mission& m) -> void* { return &m.planner; }},
+      {"map", &map_section, [](Mission& m) -> void* { return &m.map; }},             {"limits", &limit_section, [](Mission& m) -> void* { return &m.limits; }},
+      {"output", &output_section, [](Mission& m) -> void* { return &m.output; }},
+  };
+  return list;
+}
+
+std::filesystem::path vehicle_preset_folder() { return shipped_root() / "sim" / "presets"; }
+
+void read_vehicle(const Node& table, VehicleSpec& vehicle, Faults& faults) {
+  if (const Node* preset = table.find("preset")) {
+    const auto* name = std::get_if<std::string>(&preset->content);
+    std::filesystem::path file = name ? vehicle_preset_folder() / (*name + ".toml") : std::filesystem::path{};
+    if (name && !std::filesystem::exists(file)) file = *name;
+    if (!name || !std::filesystem::is_regular_file(file)) {
+      faults.add(preset->place, fmt::format("there is no vehicle preset {}, expected one of '{}' or a file{}", name ? "'" + *name + "'" : preset->kind_in_words(),
+                                            fmt::join(vehicle_presets(), "', '"), name ? did_you_mean(*name, vehicle_presets()) : ""));
+    } else if (const auto document = read_document(file)) {
+      read_section(*document, vehicle_section(), &vehicle, faults);
+    } else {
+      faults.take(document.error());
+    }
+  }
+  read_section(table, vehicle_section(), &vehicle, faults, {"preset"});
+}
+
+// --- overrides: changes to the tree before it is read, so that the same reader judges them ---
+
+Node text_node(std::string text, const std::string& origin) {
+  Node node;
+  node.content = std::move(text);
+  node.place = node.key_place = {origin, 0, 0};
+  return node;
+}
+
+void stamp(Node& node, const std::string& origin) {
+  node.place = node.key_place = {origin, 0, 0};
+  if (auto* items = std::get_if<Node::Array>(&node.content))
+    for (Node& item : *items) stamp(item, origin);
+}
+
+Node override_value(const Override& change) {
+  const auto parsed = parse_document("value = " + change.value, change.origin);
+  const Node* found = parsed ? parsed->find("value") : nullptr;
+  Node node = found && parsed->table()->size() == 1 ? *found : text_node(change.value, change.origin);
+  stamp(node, change.origin);
+  return node;
+}
+
+Node& member(Node& table, const std::string& key) {
+  auto* members = std::get_if<Node::Table>(&table.content);
+  if (!members) members = &table.content.emplace<Node::Table>();
+  for (auto& [name, node] : *members)
+    if (name == key) return node;
+  members->emplace_back(key, Node{});
+  return members->back().second;
+}
+
+void apply_to_sensors(Node& root, const std::string& rest, const Override& change, Faults& faults) {
+  auto* sensors = std::get_if<Node::Array>(&member(root, "sensor").content);
+  if (!sensors) return;  // told by the reader
+  const auto dot = rest.find('.');
+  const std::string name = dot == std::string::npos ? "" : rest.substr(0, dot);
+  const std::string key = dot == std::string::npos ? rest : rest.substr(dot + 1);
+  bool found = false;
+  for (Node& sensor : *sensors) {
+    const Node* own = sensor.find("name");
+    const auto* own_name = own ? std::get_if<std::string>(&own->content) : nullptr;
+    if (!name.empty() && (!own_name || *own_name != name)) continue;
+    member(sensor, key) = override_value(change);
+    found = true;
+  }
+  if (!found) faults.add({change.origin, 0, 0}, fmt::format("there is no sensor named '{}'", name));
+}
+
+void apply(Node& root, const Override& change, Faults& faults) {
+  const auto dot = change.key.find('.');
+  if (change.key.empty() || dot == 0 || dot + 1 == change.key.size()) return faults.add({change.origin, 0, 0}, "expected key=value, for example planner.clearance_m=0.5");
+  if (dot == std::string::npos) {
+    member(root, change.key) = override_value(change);
+  } else if (change.key.substr(0, dot) == "sensor") {
+    apply_to_sensors(root, change.key.substr(dot + 1), change, faults);
+  } else {
+    Node& table = member(root, change.key.substr(0, dot));
+    if (!table.table()) {
+      table.content = Node::Table{};
+      table.place = table.key_place = {change.origin, 0, 0};
+    }
+    member(table, change.key.substr(dot + 1)) = override_value(change);
+  }
+}
+
+/// A path in a mission: relative to the mission's folder (or, if an override gave it, to the working directory), then among what is shipped.
+std::filesystem::path locate(const Node* node, const std::string& name, const std::filesystem::path& mission) {
+  const bool from_file = node && node->place.line > 0;
+  const std::filesystem::path beside = from_file ? mission.parent_path() / name : std::filesystem::path(name);
+  if (std::filesystem::is_regular_file(beside)) return std::filesystem::absolute(beside).lexically_normal();
+  const auto shipped = find_input(name);
+  return shipped.empty() ? shipped : std::filesystem::absolute(shipped).lexically_normal();
+}
+
+void find_files(const Node& root, const std::filesystem::path& file, Mission& mission, Faults& faults) {
+  const auto find = [&](const char* key, const std::string& name) {
+    const auto found = locate(root.find(key), name, file);
+    if (found.empty()) faults.add(root.find(key) ? root.find(key)->place : root.place, fmt::format("there is no file '{}', expected a path relative to the mission or a shipped world (`thicket worlds`)", name));
+    return found;
+  };
+  if (!mission.world.empty()) mission.world_file = find("world", mission.world);
+  if (!mission.world_image.empty()) mission.image_file = find("world_image", mission.world_image);
+}
+
+void check_together(const Node& root, const Mission& mission, Faults& faults) {
+  const auto place = [&](const char* table) { return root.find(table) ? root.find(table)->place : root.place; };
+  if (mission.planner.name == "waypoints" ? mission.planner.waypoints_m.empty() : !mission.planner.goal_m) {
+    const char* lack = mission.planner.name == "waypoints" ? "way-points: give planner.waypoints_m" : "a goal: give planner.goal_m, or --goal X,Y";
+    faults.add(place("planner"), fmt::format("the planner '{}' lacks {}", mission.planner.name, lack));
+  }
+  for (const SensorSpec& sensor : mission.sensors) {
+    const double cells = 2.0 * scanner(sensor).range_max_m / mission.map.resolution_m;
+    if (mission.map.enabled && cells * cells > 0x1p28)
+      faults.add(place("map"), fmt::format("a scan of sensor '{}' covers {:.0f} x {:.0f} cells, expected at most 16384 x 16384: make map.resolution_m coarser or the range shorter",
+                                           scanner(sensor).name, cells, cells));
+  }
+  if (const auto& r = mission.output.observed_region_m; r && !(r->x < r->z && r->y < r->w))
+    faults.add(place("output"), "'observed_region_m' is empty, expected x_min < x_max and y_min < y_max");
+}
+
+}  // namespace
+
+Result<Mission> read_mission(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  Node root;
+  root.content = Node::Table{};
+  root.place = {"command line", 0, 0};
+  if (!file.empty()) {
+    auto document = read_document(file);
+    if (!document) return document.error();
+    root = std::move(*document);
+  }
+  Faults faults;
+  if (!root.find("sensor")) {
+    Node standard;
+    standard.content = Node::Table{{"preset", text_node("usarsim2012", "default sensor")}};
+    standard.place = {"default sensor", 0, 0};
+    member(root, "sensor").content = Node::Array{standard};
+  }
+  for (const Override& change : overrides) apply(root, change, faults);
+
+  Mission mission;
+  if (!file.empty()) mission.name = file.stem().string();
+  std::vector<std::string> tables = {"sensor"};
+  for (const Part& part : parts()) tables.emplace_back(part.key);
+  read_section(root, header_section(), &mission, faults, tables);
+  for (const Part& part : parts()) {
+    const Node* table = root.find(part.key);
+    if (!table) continue;
+    if (part.object(mission) == &mission.vehicle) {
+      read_vehicle(*table, mission.vehicle, faults);
+    } else {
+      read_section(*table, part.section(), part.object(mission), faults);
+    }
+  }
+  const Node& sensors = *root.find("sensor");
+  if (const auto* array = sensors.array(); array && !array->empty()) {
+    for (const Node& entry : *array) mission.sensors.push_back(read_sensor(entry, faults));
+  } else {
+    faults.add(sensors.place, "'sensor' is not an array of tables, expected entries [[sensor]]");
+  }
+  find_files(root, file, mission, faults);
+  if (faults.none()) check_together(root, mission, faults);
+  if (!faults.none()) return faults.error();
+  return mission;
+}
+
+std::string write_mission(const Mission& mission) {
+  Mission copy = mission;
+  copy.world = portable_name(mission.world_file);
+  if (!mission.image_file.empty()) copy.world_image = portable_name(mission.image_file);
+  std::string text = "# Fully resolved: running this file again gives the same result.\n" + write_section(header_section(), &copy);
+  for (const Part& part : parts()) text += fmt::format("\n[{}]\n{}", part.key, write_section(part.section(), part.object(copy)));
+  for (const SensorSpec& sensor : mission.sensors)
+    text += fmt::format("\n[[sensor]]\ntype = {}\n{}", toml_string(sensor_type(sensor)), write_section(sensor_section(sensor), sensor_object(sensor)));
+  return text;
+}
+
+std::string describe_mission_file() {
+  Mission defaults;
+  std::string text = describe_section(header_section(), &defaults);
+  for (const Part& part : parts()) text += "\n" + describe_section(part.section(), part.object(defaults));
+  for (const std::string& type : sensor_types()) {
+    const SensorSpec sensor = default_sensor(type);
+    text += "\n" + describe_section(sensor_section(sensor), sensor_object(sensor));
+  }
+  return text + fmt::format("\nA [[sensor]] names a type, or a preset whose keys it may change: {}. Without any [[sensor]], usarsim2012.\nVehicle presets: {}.\n",
+                            fmt::join(sensor_presets(), ", "), fmt::join(vehicle_presets(), ", "));
+}
+
+Result<World> read_mission_world(const Mission& mission) {
+  return read_world(mission.world_file, {mission.image_file, mission.world_unknown_is_matter, mission.world_height_m});
+}
+
+std::vector<std::string> vehicle_presets() {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(vehicle_preset_folder(), none))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace thicket

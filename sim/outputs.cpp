@@ -1,0 +1,116 @@
+#include "thicket/sim/outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "thicket/base/files.hpp"
+#include "thicket/worlds/truth.hpp"
+
+namespace thicket {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no infinity: what is not finite is null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json map_summary(const Simulation& simulation) {
+  const OccupancyMap& map = simulation.map();
+  Json json;
+  json["resolution_m"] = map.resolution();
+  json["known_cells"] = map.known_cells();
+  json["memory_bytes"] = map.memory_bytes();
+  if (const auto& region = simulation.mission().output.observed_region_m) {
+    const auto share = observed_share(simulation, *region);
+    json["observed_share_of_free_area"] = share ? Json(*share) : Json(nullptr);
+  }
+  return json;
+}
+
+}  // namespace
+
+const char* version() { return THICKET_VERSION; }
+
+std::optional<double> observed_share(const Simulation& simulation, const glm::dvec4& region) {
+  const World& world = simulation.stage().scene.world();
+  const OccupancyMap& map = simulation.map();
+  const double height = simulation.mission().start.z_m + scanner(simulation.mission().sensors.front()).position_m.z;
+  const CellIndex first = map.cell_at({region.x, region.y}), last = map.cell_at({region.z, region.w});
+  std::size_t free = 0, observed = 0;
+  for (std::int64_t row = first.row; row <= last.row; ++row) {
+    for (std::int64_t column = first.column; column <= last.column; ++column) {
+      const glm::dvec2 centre = glm::dvec2(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5) * map.resolution();
+      if (centre.x < region.x || centre.y < region.y || centre.x > region.z || centre.y > region.w) continue;
+      if (in_matter(world, {centre, height}, true)) continue;
+      ++free;
+      observed += map.view({column, row}).known;
+    }
+  }
+  if (free == 0) return std::nullopt;
+  return static_cast<double>(observed) / static_cast<double>(free);
+}
+
+std::string result_json(const Simulation& simulation) {
+  const Mission& mission = simulation.mission();
+  const RunTotals& totals = simulation.totals();
+  const Pose2& pose = simulation.vehicle().pose;
+  const auto& verdict = simulation.verdict();
+  Json json;
+  json["mission"] = mission.name;
+  json["world"] = simulation.stage().scene.world().name;
+  json["planner"] = mission.planner.name;
+  json["verdict"] = verdict ? to_string(verdict->kind) : "running";
+  json["reason"] = verdict ? verdict->reason : "";
+  json["simulated_time_s"] = simulation.time();
+  json["path_length_m"] = totals.path_length;
+  if (mission.planner.name != "waypoints" && mission.planner.goal_m) {
+    const glm::dvec2 start(mission.start.x_m, mission.start.y_m);
+    json["straight_distance_m"] = glm::distance(start, *mission.planner.goal_m);
+    json["distance_to_goal_m"] = glm::distance(pose.position, *mission.planner.goal_m);
+  }
+  json["minimum_clearance_m"] = number(totals.least_clearance);
+  json["final_pose"] = {{"x_m", pose.position.x}, {"y_m", pose.position.y}, {"yaw_deg", degrees(pose.yaw)}};
+  json["steps"] = simulation.steps();
+  json["scans"] = totals.scans;
+  json["rays"] = totals.rays;
+  if (mission.map.enabled) json["map"] = map_summary(simulation);
+  json["seed"] = mission.seed;
+  json["version"] = version();
+  return json.dump(2) + "\n";
+}
+
+std::string timing_json(const Simulation& simulation, double wall_start_s, double wall_run_s) {
+  const PhaseTimes& times = simulation.phase_times();
+  Json json;
+  json["wall_start_s"] = wall_start_s;
+  json["wall_run_s"] = wall_run_s;
+  json["simulated_time_s"] = simulation.time();
+  json["realtime_factor"] = wall_run_s > 0.0 ? number(simulation.time() / wall_run_s) : Json(nullptr);
+  json["phases_s"] = {{"trace", times.trace}, {"map", times.map}, {"plan", times.plan}, {"contact", times.contact},
+                      {"other", wall_run_s - times.trace - times.map - times.plan - times.contact}};
+  return json.dump(2) + "\n";
+}
+
+Result<Done> write_outputs(const std::filesystem::path& folder, const Simulation& simulation, const Trajectory& trajectory, double wall_start_s, double wall_run_s) {
+  const OutputSpec& output = simulation.mission().output;
+  const bool with_map = simulation.mission().map.enabled && simulation.map().known_cells() > 0;
+  std::vector<Result<Done>> written;
+  written.push_back(write_file(folder / "mission.toml", write_mission(simulation.mission())));
+  if (output.trajectory) {
+    written.push_back(write_file(folder / "trajectory.csv", trajectory.csv()));
+    written.push_back(write_file(folder / "trajectory.tum", trajectory.tum()));
+  }
+  if (output.map && with_map) written.push_back(write_map_file(folder / "map", simulation.map().to_grid()));
+  if (output.picture) written.push_back(write_map_picture(folder / "map.png", simulation, trajectory));
+  written.push_back(write_file(folder / "timing.json", timing_json(simulation, wall_start_s, wall_run_s)));
+  written.push_back(write_file(folder / "result.json", result_json(simulation)));  // last: where it is, the rest is
+  for (const auto& one : written)
+    if (!one) return one.error();
+  return Done{};
+}
+
+}  // namespace thicket

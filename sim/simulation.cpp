@@ -1,0 +1,191 @@
+#include "thicket/sim/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace thicket {
+namespace {
+
+/// Adds the wall time of its own life to a phase.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+/// The planner is driven by the first sensor.
+constexpr std::size_t planning_sensor = 0;
+
+VehicleLimits vehicle_limits(const Mission& mission) {
+  return mission.vehicle.limits(std::max(mission.step_s, 1.0 / scanner(mission.sensors[planning_sensor]).rate_hz));
+}
+
+BumperRing make_bumpers(const Mission& mission) {
+  return {mission.bumpers, mission.vehicle.radius_m, press_distance(mission.bumpers, mission.planner, vehicle_limits(mission))};
+}
+
+Pose2 start_pose(const Mission& mission) { return {{mission.start.x_m, mission.start.y_m}, wrap_angle(radians(mission.start.yaw_deg))}; }
+
+}  // namespace
+
+const char* to_string(Verdict::Kind kind) {
+  switch (kind) {
+    case Verdict::Kind::reached: return "reached";
+    case Verdict::Kind::unreachable: return "unreachable";
+    case Verdict::Kind::stopped: return "stopped";
+    case Verdict::Kind::collided: return "collided";
+  }
+  return "";
+}
+
+Result<Simulation> Simulation::create(const Mission& mission) {
+  auto world = read_mission_world(mission);
+  if (!world) return world.error();
+  auto scene = Scene::build(std::move(*world));
+  if (!scene) return scene.error();
+  std::vector<std::shared_ptr<const Sensor>> sensors;
+  for (const SensorSpec& spec : mission.sensors) sensors.push_back(make_sensor(spec, static_cast<std::uint16_t>(sensors.size())));
+  auto planner = make_planner(mission.planner, vehicle_limits(mission), start_pose(mission));
+  if (!planner) return planner.error();
+  return Simulation(std::make_shared<const Stage>(Stage{mission, std::move(*scene), std::move(sensors)}), std::move(*planner));
+}
+
+Simulation::Simulation(std::shared_ptr<const Stage> stage, std::unique_ptr<Planner> planner)
+    : stage_(std::move(stage)),
+      planner_(std::move(planner)),
+      bumpers_(make_bumpers(stage_->mission)),
+      map_(stage_->mission.map),
+      scans_(stage_->sensors.size()),
+      scan_counts_(stage_->sensors.size()) {
+  vehicle_.pose = start_pose(stage_->mission);
+  stuck_pose_ = vehicle_.pose;
+  clearance_ = stage_->scene.clearance(stage_->mission.vehicle.hull(), vehicle_pose().position, infinity);
+  totals_.least_clearance = clearance_.distance;
+  if (clearance_.distance <= 0.0)
+    verdict_ = {Verdict::Kind::collided, fmt::format("the hull touches '{}' at the start", stage_->scene.world().solids[clearance_.solid].name)};
+}
+
+Simulation::Simulation(const Simulation& other)
+    : stage_(other.stage_),
+      steps_(other.steps_),
+      vehicle_(other.vehicle_),
+      planner_(other.planner_->clone()),
+      bumpers_(other.bumpers_),
+      contour_(other.contour_),
+      map_(other.map_),
+      scans_(other.scans_),
+      scan_counts_(other.scan_counts_),
+      decision_(other.decision_),
+      clearance_(other.clearance_),
+      totals_(other.totals_),
+      times_(other.times_),
+      verdict_(other.verdict_),
+      stuck_pose_(other.stuck_pose_),
+      stuck_step_(other.stuck_step_) {}
+
+Simulation& Simulation::operator=(const Simulation& other) {
+  if (this != &other) *this = Simulation(other);
+  return *this;
+}
+
+Pose Simulation::vehicle_pose() const { return Pose::planar(vehicle_.pose.position.x, vehicle_.pose.position.y, stage_->mission.start.z_m, vehicle_.pose.yaw); }
+
+void Simulation::stop(const std::string& reason) {
+  if (!verdict_) verdict_ = {Verdict::Kind::stopped, reason};
+}
+
+bool Simulation::step() {
+  if (verdict_) return false;
+  sense();
+  if (!verdict_) move();
+  if (!verdict_) check_limits();
+  return !verdict_;
+}
+
+void Simulation::sense() {
+  for (std::size_t i = 0; i < stage_->sensors.size(); ++i) {
+    const Sensor& sensor = *stage_->sensors[i];
+    const double due = static_cast<double>(scan_counts_[i]) / sensor.spec().rate_hz;
+    if (time() < due - 1e-9) continue;
+    // A rate above the step's gives one scan a step; the count keeps up with the time, so that the rate is right on average.
+    scan_counts_[i] = std::max(scan_counts_[i] + 1, static_cast<std::uint64_t>(std::floor((time() + 1e-9) * sensor.spec().rate_hz)) + 1);
+    Scan& scan = scans_[i];
+    {
+      const Stopwatch watch(times_.trace);
+      const Random random(static_cast<std::uint64_t>(stage_->mission.seed), static_cast<std::uint16_t>(i));
+      sensor.measure(stage_->scene, vehicle_pose(), time(), scan_counts_[i] - 1, random, scan);
+    }
+    ++totals_.scans;
+    totals_.rays += scan.rays;
+    if (stage_->mission.map.enabled) {
+      const Stopwatch watch(times_.map);
+      map_.integrate(scan, vehicle_pose());
+    }
+    if (i == planning_sensor) decide();
+  }
+}
+
+void Simulation::decide() {
+  const Stopwatch watch(times_.plan);
+  read_contour(scans_[planning_sensor], contour_);
+  bumpers_.read(contour_);
+  decision_ = planner_->decide({time(), vehicle_.pose, vehicle_.speed, vehicle_.turn_rate, contour_, bumpers_});
+  ++totals_.decisions;
+  switch (decision_.outcome) {
+    case Outcome::running: break;
+    case Outcome::reached: verdict_ = {Verdict::Kind::reached, decision_.reason}; break;
+    case Outcome::unreachable: verdict_ = {Verdict::Kind::unreachable, decision_.reason}; break;
+    case Outcome::stuck: verdict_ = {Verdict::Kind::stopped, decision_.reason}; break;
+  }
+}
+
+void Simulation::move() {
+  const Mission& mission = stage_->mission;
+  const Arc arc = vehicle_.step(decision_.command, mission.step_s, mission.vehicle);
+  const double length = std::abs(arc.speed) * mission.step_s;
+  const double z = mission.start.z_m;
+  const auto position_at = [&](double s) {
+    const glm::dvec2 p = length > 0.0 ? arc.at(mission.step_s * (s / length)).position : arc.start.position;
+    return glm::dvec3(p, z);
+  };
+  double contact = infinity;
+  {
+    const Stopwatch watch(times_.contact);
+    contact = stage_->scene.first_contact(mission.vehicle.hull(), position_at, length, totals_.least_clearance, clearance_, totals_.least_clearance);
+  }
+  ++steps_;
+  if (contact <= length) {
+    vehicle_.pose = arc.at(length > 0.0 ? mission.step_s * (contact / length) : 0.0);
+    totals_.path_length += contact;
+    verdict_ = {Verdict::Kind::collided, fmt::format("the hull touched '{}' at ({:.2f}, {:.2f})", stage_->scene.world().solids[clearance_.solid].name,
+                                                     vehicle_.pose.position.x, vehicle_.pose.position.y)};
+    return;
+  }
+  vehicle_.pose = arc.at(mission.step_s);
+  totals_.path_length += length;
+}
+
+void Simulation::check_limits() {
+  const LimitSpec& limits = stage_->mission.limits;
+  if (time() >= limits.time_s) return stop(fmt::format("time limit of {} s", limits.time_s));
+  if (limits.distance_m && totals_.path_length >= *limits.distance_m) return stop(fmt::format("distance limit of {} m", *limits.distance_m));
+  const bool moved = glm::distance(vehicle_.pose.position, stuck_pose_.position) > 0.05 || std::abs(wrap_angle(vehicle_.pose.yaw - stuck_pose_.yaw)) > radians(5.0);
+  if (moved) {
+    stuck_pose_ = vehicle_.pose;
+    stuck_step_ = steps_;
+  } else if (static_cast<double>(steps_ - stuck_step_) * stage_->mission.step_s >= limits.stuck_s) {
+    stop(fmt::format("stuck for {} s: {}", limits.stuck_s, decision_.state));
+  }
+}
+
+}  // namespace thicket

@@ -1,0 +1,34 @@
+#include "thicket/sim/trajectory.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace thicket {
+
+void Trajectory::note(const Simulation& simulation) {
+  const bool decided = simulation.totals().decisions > decisions_;
+  if (!points_.empty() && !decided && !simulation.verdict()) return;
+  decisions_ = simulation.totals().decisions;
+  const auto& vehicle = simulation.vehicle();
+  points_.push_back({simulation.time(), vehicle.pose, simulation.mission().start.z_m, vehicle.speed, vehicle.turn_rate, simulation.decision().state});
+}
+
+std::string Trajectory::csv() const {
+  std::string text = "time_s,x_m,y_m,z_m,yaw_deg,speed_m_s,turn_rate_deg_s,state\n";
+  for (const TrajectoryPoint& p : points_)
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},\"{}\"\n", p.time, p.pose.position.x, p.pose.position.y, p.z, degrees(p.pose.yaw), p.speed,
+                   degrees(p.turn_rate), p.state);
+  return text;
+}
+
+std::string Trajectory::tum() const {
+  std::string text = "# time x y z qx qy qz qw\n";
+  for (const TrajectoryPoint& p : points_) {
+    const glm::dquat q = Pose::planar(0.0, 0.0, 0.0, p.pose.yaw).orientation;
+    fmt::format_to(std::back_inserter(text), "{} {} {} {} {} {} {} {}\n", p.time, p.pose.position.x, p.pose.position.y, p.z, q.x, q.y, q.z, q.w);
+  }
+  return text;
+}
+
+}  // namespace thicket

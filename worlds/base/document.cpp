@@ -1,0 +1,89 @@
+#include "thicket/base/document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include <toml++/toml.h>
+
+#include "thicket/base/files.hpp"
+
+namespace thicket {
+namespace {
+
+Place place_of(const toml::source_region& region, const std::string& file) {
+  return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+}
+
+Node convert(const toml::node& from, const std::string& file) {
+  Node node;
+  node.place = place_of(from.source(), file);
+  if (const auto* table = from.as_table()) {
+    Node::Table members;
+    for (const auto& [key, value] : *table) {
+      Node member = convert(value, file);
+      member.key_place = place_of(key.source(), file);
+      members.emplace_back(std::string(key.str()), std::move(member));
+    }
+    std::stable_sort(members.begin(), members.end(), [](const auto& a, const auto& b) {
+      const Place &p = a.second.key_place, &q = b.second.key_place;
+      return p.line != q.line ? p.line < q.line : p.column < q.column;
+    });
+    node.content = std::move(members);
+  } else if (const auto* array = from.as_array()) {
+    Node::Array items;
+    for (const auto& item : *array) items.push_back(convert(item, file));
+    node.content = std::move(items);
+  } else if (const auto* text = from.as_string()) {
+    node.content = text->get();
+  } else if (const auto* integer = from.as_integer()) {
+    node.content = integer->get();
+  } else if (const auto* number = from.as_floating_point()) {
+    node.content = number->get();
+  } else if (const auto* flag = from.as_boolean()) {
+    node.content = flag->get();
+  }
+  return node;  // dates and times stay empty: no key takes one
+}
+
+}  // namespace
+
+std::string to_string(const Place& place) {
+  return place.line > 0 ? fmt::format("{}:{}:{}", place.file, place.line, place.column) : place.file;
+}
+
+const Node* Node::find(std::string_view key) const {
+  if (const Table* members = table())
+    for (const auto& [name, value] : *members)
+      if (name == key) return &value;
+  return nullptr;
+}
+
+std::string Node::kind_in_words() const {
+  static const char* const words[] = {"a date or time", "true or false", "an integer", "a number", "a text", "an array", "a table"};
+  return words[content.index()];
+}
+
+Result<Node> parse_document(std::string_view text, const std::string& name) {
+  try {
+    return convert(toml::parse(text, std::string_view(name)), name);
+  } catch (const toml::parse_error& fault) {
+    return Error{fmt::format("{}: {}", to_string(place_of(fault.source(), name)), fault.description())};
+  }
+}
+
+Result<Node> read_document(const std::filesystem::path& file) {
+  auto text = read_text_file(file);
+  if (!text) return text.error();
+  return parse_document(*text, file.string());
+}
+
+void Faults::add(const Place& place, std::string_view what) {
+  messages_.push_back(fmt::format("{}: {}", to_string(place), what));
+}
+
+Error Faults::error() const {
+  return {fmt::format("{}", fmt::join(messages_, "\n"))};
+}
+
+}  // namespace thicket

@@ -1,0 +1,109 @@
+// A world as data: materials and solids. It is what files describe; `Scene` makes it traceable.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "thicket/base/map_file.hpp"
+#include "thicket/base/result.hpp"
+#include "thicket/base/schema.hpp"
+#include "thicket/worlds/material.hpp"
+
+namespace thicket {
+
+// Shapes, each in the frame of its solid (origin at the solid's position, turned by its yaw). Metres.
+
+struct Box {
+  glm::dvec3 size{1.0, 1.0, 1.0};  ///< full edge lengths, centred on the position
+};
+struct Sphere {
+  double radius = 0.5;  ///< centred on the position
+};
+struct Cylinder {
+  double radius = 0.5;  ///< upright, centred on the position
+  double height = 1.0;
+};
+/// A polyline of thickness and height; corners between its segments are rounded, its ends are square.
+struct Wall {
+  std::vector<glm::dvec2> points;  ///< at least two
+  double thickness = 0.1;
+  double height = 2.5;  ///< upward from the position's z
+};
+/// A block of cells of a `MapSolid`, in cells: [column, column + columns) x [row, row + rows).
+struct CellBlock {
+  int column = 0, row = 0, columns = 0, rows = 0;
+};
+/// The occupied (and, unless told otherwise, unknown) cells of a grid map, extruded.
+struct MapSolid {
+  GridMap grid;
+  bool unknown_is_matter = true;
+  double height = 2.5;            ///< upward from the position's z
+  std::vector<CellBlock> blocks;  ///< the matter, merged into rectangles that share no cell
+
+  bool matter(int column, int row) const {
+    const CellState state = grid.at(column, row);
+    return state == CellState::occupied || (state == CellState::unknown && unknown_is_matter);
+  }
+};
+
+using Shape = std::variant<Box, Sphere, Cylinder, Wall, MapSolid>;
+
+/// A shape with a material, somewhere. Where solids overlap, the highest attenuation counts, and motion stops if any of them stops it.
+struct Solid {
+  std::string name;
+  std::uint32_t material = 0;  ///< index into World::materials
+  glm::dvec3 position{0.0, 0.0, 0.0};
+  double yaw = 0.0;  ///< rad
+  Shape shape;
+};
+
+struct Bounds {
+  glm::dvec3 low{0.0}, high{0.0};
+};
+/// The union of two boxes.
+Bounds join(const Bounds& a, const Bounds& b);
+
+struct World {
+  std::string name;
+  std::string source;  ///< where its figures come from
+  std::filesystem::path file;
+  std::optional<glm::dvec4> bounds;  ///< x_min, y_min, x_max, y_max as the file states them; `extent` tells what the solids take
+  std::vector<Material> materials;
+  std::vector<Solid> solids;
+
+  const Material& material_of(std::uint32_t solid) const { return materials[solids[solid].material]; }
+};
+
+/// The axis-aligned box that holds a solid, or all of them (nothing for an empty world).
+Bounds extent(const Solid& solid);
+std::optional<Bounds> extent(const World& world);
+
+/// The horizontal half-width of a sphere or cylinder about its own axis between two heights, the half diagonal of anything else there; 0 where it has no
+/// matter between them. Tells whether a sensor's plane sees as much of a solid as the hull would meet.
+double half_width_between(const Solid& solid, double z_low, double z_high);
+
+/// Options for maps that are given as a world of their own.
+struct MapOptions {
+  std::filesystem::path image;    ///< read instead of the image that the YAML names, if not empty
+  bool unknown_is_matter = true;
+  double height = 2.5;
+};
+
+/// Reads a world file (TOML) or a map_server YAML; which of the two is told by the name's ending. Errors as in `Error`, all of a file's faults at once.
+Result<World> read_world(const std::filesystem::path& file, const MapOptions& map = {});
+
+/// Merges the matter of a map into rectangles: greedy, rows first, each cell in exactly one.
+std::vector<CellBlock> merge_cells(const MapSolid& map);
+
+/// The sections of a world file, for `thicket help world`: title, and its keys with their defaults.
+std::string describe_world_file();
+
+}  // namespace thicket
