@@ -21,22 +21,23 @@ class Bug1 final : public Bug {
       if (!walk().closed()) return follow("walking around the obstacle");
       start_return();
     }
+    // L is reached where the distance to it is least; the tracks of two walks along the same boundary are a little apart.
     const double away = pilot().distance_to(closest_);
     const double walked = walk().length() - length_at_return_;
-    // L may be passed beside by a step; the place where the way opens may lie a little before or behind it.
-    const bool near = away <= 2.0 * pilot().same_place() && walked >= expected_ - slack_;
-    const bool going_by = near && was_near_ && away > last_away_;
-    if (near && (going_by || away <= pilot().same_place()) && pilot().open_toward(goal())) return leave();
-    const bool passed = (going_by && away > pilot().same_place()) || walked > expected_ + 2.0 * slack_;
-    was_near_ = near;
+    const bool due = walked >= expected_ - slack_;
+    const bool going_by = due && was_due_ && away > last_away_ && away < 4.0 * pilot().same_place();
+    was_due_ = due;
     last_away_ = away;
-    if (passed) return unreachable("the whole boundary was walked, and at its point closest to the goal the way to the goal leads into the obstacle");
+    const bool here = due && (going_by || away <= pilot().same_place());
+    if (here && pilot().open_toward(goal())) return leave();
+    if (going_by || walked > expected_ + 2.0 * slack_)
+      return unreachable("the whole boundary was walked, and at its point closest to the goal the way to the goal leads into the obstacle");
     return follow("returning to the point closest to the goal");
   }
 
   void start_return() {
     returning_ = true;
-    was_near_ = false;
+    was_due_ = false;
     closest_ = walk().closest();
     mark("closest", closest_);
     length_at_return_ = walk().length();
@@ -46,7 +47,7 @@ class Bug1 final : public Bug {
     slack_ = 4.0 * pilot().same_place() + 0.1 * expected_;
   }
 
-  bool returning_ = false, was_near_ = false;
+  bool returning_ = false, was_due_ = false;
   glm::dvec2 closest_{0.0, 0.0};
   double length_at_return_ = 0.0, expected_ = 0.0, slack_ = 0.0, last_away_ = 0.0;
 };

@@ -10,9 +10,7 @@ namespace thicket {
 void read_contour(const Scan& scan, Contour& contour) {
   contour.clear();
   for (const Beam& beam : scan.beams) {
-    const double plane = std::cos(beam.elevation);
-    const glm::dvec3 along = scan.mount_orientation *
-                             glm::dvec3(plane * std::cos(beam.azimuth), plane * std::sin(beam.azimuth), std::sin(beam.elevation));
+    const glm::dvec3 along = scan.mount_orientation * beam.direction;
     double range = 0.0;
     if (!beam.starts_inside) {
       const auto echoes = scan.echoes_of(beam);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include <glm/common.hpp>
@@ -30,8 +31,16 @@ const Section& map_section() {
   return section;
 }
 
-OccupancyMap::OccupancyMap(const MapSpec& spec)
-    : spec_(spec), hit_(to_units(spec.probability_hit)), miss_(to_units(spec.probability_miss)), low_(to_units(spec.clamp_low)), high_(to_units(spec.clamp_high)) {}
+OccupancyMap::OccupancyMap(const MapSpec& spec) : spec_(spec), low_(to_units(spec.clamp_low)) {
+  const int hit = to_units(spec.probability_hit), miss = to_units(spec.probability_miss), high = to_units(spec.clamp_high);
+  for (int state = untouched; state <= occupied; ++state) {
+    for (int value = -128; value < 128; ++value) {
+      const int before = value == unknown ? 0 : value;
+      const int after = state == untouched ? value : std::clamp(before + (state == occupied ? hit : miss), low_, high);
+      next_value_[static_cast<std::size_t>(state * 256) + static_cast<std::uint8_t>(value)] = static_cast<std::int8_t>(after);
+    }
+  }
+}
 
 CellIndex OccupancyMap::cell_at(const glm::dvec2& point) const {
   return {static_cast<std::int64_t>(std::floor(point.x / spec_.resolution_m)), static_cast<std::int64_t>(std::floor(point.y / spec_.resolution_m))};
@@ -39,121 +48,107 @@ CellIndex OccupancyMap::cell_at(const glm::dvec2& point) const {
 
 void OccupancyMap::integrate(const Scan& scan, const Pose& vehicle) {
   const Pose sensor = vehicle * Pose{scan.mount_position, scan.mount_orientation};
-  double reach = 0.0;
+  place_window(scan, glm::dvec2(sensor.position));
+  const glm::dvec2 corner = glm::dvec2(static_cast<double>(window_.tile.column), static_cast<double>(window_.tile.row)) * static_cast<double>(tile_size);
+  const glm::dvec2 from = glm::dvec2(sensor.position) / spec_.resolution_m - corner;
   for (const Beam& beam : scan.beams) {
-    reach = std::max(reach, beam.sensed_range);
-    if (beam.echo_count > 0) reach = std::max(reach, scan.echoes_of(beam).back().range);
-  }
-  const CellIndex centre = cell_at(glm::dvec2(sensor.position));
-  const auto half = static_cast<std::int64_t>(std::ceil(reach / spec_.resolution_m)) + 2;
-  const auto width = static_cast<std::uint32_t>(2 * half + 1);
-  if (width > window_.width) {
-    window_.width = width;
-    window_.stamps.assign(std::size_t{width} * width, 0);
-    window_.stamp = 0;
-  }
-  if (++window_.stamp >= 1u << 14) {
-    std::fill(window_.stamps.begin(), window_.stamps.end(), std::uint16_t{0});
-    window_.stamp = 1;
-  }
-  window_.column = centre.column - window_.width / 2;
-  window_.row = centre.row - window_.width / 2;
-
-  const glm::dvec2 from = glm::dvec2(sensor.position) / spec_.resolution_m - glm::dvec2(static_cast<double>(window_.column), static_cast<double>(window_.row));
-  for (const Beam& beam : scan.beams) {
-    const double plane = std::cos(beam.elevation);
-    const glm::dvec2 along(sensor.orientation * glm::dvec3(plane * std::cos(beam.azimuth), plane * std::sin(beam.azimuth), std::sin(beam.elevation)));
+    const glm::dvec2 along(sensor.orientation * beam.direction);
     const double shrink = glm::length(along);  // of a beam that climbs or falls, its plan
     if (shrink > 1e-9) draw_beam(scan, beam, from, along / shrink, shrink / spec_.resolution_m);
   }
   apply();
 }
 
-void OccupancyMap::touch(std::uint32_t index, State state) {
-  std::uint16_t& cell = window_.stamps[index];
-  if (cell >> 2 != window_.stamp) {
-    cell = static_cast<std::uint16_t>(window_.stamp << 2 | state);
-    window_.touched.push_back(index);
-  } else if ((cell & 3) < state) {
-    cell = static_cast<std::uint16_t>(window_.stamp << 2 | state);
+/// Puts the window around the sensor, on the tiles' grid, large enough for what the scan reaches.
+void OccupancyMap::place_window(const Scan& scan, const glm::dvec2& sensor) {
+  double reach = 0.0;
+  for (const Beam& beam : scan.beams) {
+    reach = std::max(reach, beam.sensed_range);
+    if (beam.echo_count > 0) reach = std::max(reach, scan.echoes_of(beam).back().range);
   }
+  const auto half = static_cast<std::int64_t>(std::ceil(reach / spec_.resolution_m)) + 2;
+  window_.tiles = (2 * half + 1) / tile_size + 2;
+  const auto cells = static_cast<std::size_t>(window_.stride() * window_.tiles * tile_size);
+  if (window_.states.size() < cells) window_.states.resize(cells, untouched);
+  const CellIndex centre = cell_at(sensor);
+  window_.tile = {floor_tile(centre.column - half, tile_bits), floor_tile(centre.row - half, tile_bits)};
 }
 
 /// Walks the cells under a beam (Amanatides & Woo 1987), in cells; `scale` is cells per metre of the beam.
 void OccupancyMap::draw_beam(const Scan& scan, const Beam& beam, const glm::dvec2& from, const glm::dvec2& direction, double scale) {
-  const auto width = static_cast<std::int64_t>(window_.width);
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const std::int64_t stride = window_.stride();
+  std::uint8_t* const states = window_.states.data();
   const auto echoes = scan.echoes_of(beam);
-  bool inside = beam.starts_inside;
-  std::size_t next = 0;
-  const auto boundary = [&](std::size_t echo) { return echo < echoes.size() ? echoes[echo].range * scale : std::numeric_limits<double>::infinity(); };
-  double change = boundary(0);
 
-  auto column = static_cast<std::int64_t>(from.x), row = static_cast<std::int64_t>(from.y);
-  const std::int64_t step_column = direction.x > 0.0 ? 1 : -1, step_row = direction.y > 0.0 ? 1 : -1;
-  const double step_x = direction.x != 0.0 ? std::abs(1.0 / direction.x) : std::numeric_limits<double>::infinity();
-  const double step_y = direction.y != 0.0 ? std::abs(1.0 / direction.y) : std::numeric_limits<double>::infinity();
+  std::int64_t cell = static_cast<std::int64_t>(from.y) * stride + static_cast<std::int64_t>(from.x);
+  const std::int64_t step_column = direction.x > 0.0 ? 1 : -1, step_row = direction.y > 0.0 ? stride : -stride;
+  const double step_x = direction.x != 0.0 ? std::abs(1.0 / direction.x) : never, step_y = direction.y != 0.0 ? std::abs(1.0 / direction.y) : never;
   const auto to_edge = [](double at, double towards) { return towards > 0.0 ? std::floor(at) + 1.0 - at : at - std::floor(at); };
-  double next_x = direction.x != 0.0 ? to_edge(from.x, direction.x) * step_x : std::numeric_limits<double>::infinity();
-  double next_y = direction.y != 0.0 ? to_edge(from.y, direction.y) * step_y : std::numeric_limits<double>::infinity();
+  double next_x = direction.x != 0.0 ? to_edge(from.x, direction.x) * step_x : never;
+  double next_y = direction.y != 0.0 ? to_edge(from.y, direction.y) * step_y : never;
+  double at = 0.0;
 
-  const double end = beam.sensed_range * scale;
-  for (double at = 0.0; at < end;) {
-    const double leave = std::min({next_x, next_y, end});
-    // A cell belongs to the stretch that its middle lies in.
-    while (0.5 * (at + leave) >= change) {
-      if (echoes[next].edge == Edge::front) inside = true;
-      if (echoes[next].edge == Edge::back) inside = false;
-      change = boundary(++next);
+  // The cell in which a stretch ends holds the echo that ends it, and occupied wins: stretches need not share it.
+  const auto draw_stretch = [&](double end, State state) {
+    while (at < end) {
+      states[cell] = std::max<std::uint8_t>(states[cell], state);
+      const bool sideways = next_x < next_y;
+      at = sideways ? next_x : next_y;
+      cell += sideways ? step_column : step_row;
+      next_x = sideways ? next_x + step_x : next_x;
+      next_y = sideways ? next_y : next_y + step_y;
     }
-    touch(static_cast<std::uint32_t>(row * width + column), inside ? through : free);
-    at = leave;
-    if (next_x < next_y) {
-      next_x += step_x;
-      column += step_column;
-    } else {
-      next_y += step_y;
-      row += step_row;
-    }
-  }
+  };
+  // A surface that lies on the border of two cells, as in worlds with round numbers, is matter in the one behind it, whatever the last bit of its range.
+  constexpr double on_border = 0.01;
+  bool inside = beam.starts_inside;
   for (const Echo& echo : echoes) {
-    const glm::dvec2 point = from + echo.range * scale * direction;
-    touch(static_cast<std::uint32_t>(static_cast<std::int64_t>(point.y) * width + static_cast<std::int64_t>(point.x)), occupied);
+    draw_stretch(echo.range * scale - on_border, inside ? through : free);
+    inside = echo.edge != Edge::back;
+  }
+  draw_stretch(beam.sensed_range * scale - (beam.end == BeamEnd::stopped ? on_border : 0.0), inside ? through : free);
+  for (const Echo& echo : echoes) {
+    const glm::dvec2 point = from + (echo.range * scale + (echo.edge == Edge::back ? -on_border : on_border)) * direction;
+    states[static_cast<std::int64_t>(point.y) * stride + static_cast<std::int64_t>(point.x)] = occupied;
   }
 }
 
-OccupancyMap::Tile& OccupancyMap::writable_tile(const CellIndex& index) {
-  auto& tile = tiles_[index];
-  if (!tile) {
-    tile = std::make_shared<Tile>();
-  } else if (tile.use_count() > 1) {
-    tile = std::make_shared<Tile>(*tile);
-  }
-  return *tile;
-}
-
+/// Takes the window into the tiles and leaves it empty.
 void OccupancyMap::apply() {
-  CellIndex current{std::numeric_limits<std::int64_t>::min(), 0};
+  for (std::int64_t row = 0; row < window_.tiles; ++row)
+    for (std::int64_t column = 0; column < window_.tiles; ++column)
+      apply_to_tile({window_.tile.column + column, window_.tile.row + row}, window_.states.data() + (row * window_.stride() + column) * tile_size);
+}
+
+void OccupancyMap::apply_to_tile(const CellIndex& index, std::uint8_t* states) {
   Tile* tile = nullptr;
-  for (const std::uint32_t index : window_.touched) {
-    const std::int64_t column = window_.column + index % window_.width, row = window_.row + index / window_.width;
-    const CellIndex where{floor_tile(column, tile_bits), floor_tile(row, tile_bits)};
-    if (!(where == current)) {
-      current = where;
-      tile = &writable_tile(where);
-    }
-    const auto x = static_cast<std::size_t>(column & (tile_size - 1)), y = static_cast<std::size_t>(row & (tile_size - 1));
-    std::int8_t& cell = tile->log_odds[y * tile_size + x];
-    const auto state = static_cast<State>(window_.stamps[index] & 3);
-    const int before = cell == unknown ? 0 : cell;
-    cell = static_cast<std::int8_t>(std::clamp(before + (state == occupied ? hit_ : miss_), low_, high_));
-    const std::uint64_t bit = std::uint64_t{1} << x;
-    if (state == through) {
-      tile->through[y] |= bit;
-    } else {
-      tile->through[y] &= ~bit;
+  for (std::size_t y = 0; y < tile_size; ++y, states += window_.stride()) {
+    for (std::size_t x = 0; x < tile_size; x += 8) {
+      std::uint64_t eight = 0;  // most of a window is untouched: eight cells are passed over at once
+      std::memcpy(&eight, states + x, 8);
+      if (eight == 0) continue;
+      if (!tile) {
+        auto& shared = tiles_[index];
+        if (!shared) {
+          shared = std::make_shared<Tile>();
+        } else if (shared.use_count() > 1) {
+          shared = std::make_shared<Tile>(*shared);
+        }
+        tile = shared.get();
+      }
+      std::int8_t* values = tile->log_odds.data() + y * tile_size + x;
+      std::uint64_t touched = 0, sensed_through = 0;
+      for (std::size_t i = 0; i < 8; ++i) {
+        const std::uint8_t state = states[x + i];
+        values[i] = next_value_[std::size_t{state} * 256 + static_cast<std::uint8_t>(values[i])];
+        touched |= std::uint64_t{state != untouched} << i;
+        sensed_through |= std::uint64_t{state == through} << i;
+      }
+      tile->through[y] = (tile->through[y] & ~(touched << x)) | sensed_through << x;
+      std::memset(states + x, 0, 8);
     }
   }
-  window_.touched.clear();
 }
 
 const OccupancyMap::Tile* OccupancyMap::tile(const CellIndex& cell) const {

@@ -60,7 +60,10 @@ Command Pilot::follow(Hand hand) {
   if (!edge) return {};
   if (edge->point) contact_ = pose_.to_outer(contour_[*edge->point].position);
   const double limit = speed_ * speed_ / vehicle_.deceleration + 1.0;
-  return drive(edge->heading, steering.free_way(edge->heading, keep_ - 2.0 * gap_, limit).distance);
+  Command command = drive(edge->heading, steering.free_way(edge->heading, keep_ - 2.0 * gap_, limit).distance);
+  // The boundary is steered along by looking ahead: a robot that covers that distance between a few decisions swings from side to side.
+  command.speed = std::min(command.speed, look_ahead_ / (3.5 * vehicle_.decision_period));
+  return command;
 }
 
 Command Pilot::drive(double heading, double way) const {

@@ -79,6 +79,7 @@ class Scanner : public Sensor {
       Beam& beam = scan.beams[b];
       beam = Beam{};
       beam.azimuth = azimuths_[b];
+      beam.direction = directions_[b];
       rays.push_back(ray(sensor, directions_[b], b, scan.number, random, beam));
     }
     const std::span<Beam> beams(scan.beams.data() + first, end - first);

@@ -51,7 +51,11 @@ const char* to_string(Verdict::Kind kind) {
 Result<Simulation> Simulation::create(const Mission& mission) {
   auto world = read_mission_world(mission);
   if (!world) return world.error();
-  auto scene = Scene::build(std::move(*world));
+  return create(mission, std::move(*world));
+}
+
+Result<Simulation> Simulation::create(const Mission& mission, World world) {
+  auto scene = Scene::build(std::move(world));
   if (!scene) return scene.error();
   std::vector<std::shared_ptr<const Sensor>> sensors;
   for (const SensorSpec& spec : mission.sensors) sensors.push_back(make_sensor(spec, static_cast<std::uint16_t>(sensors.size())));

@@ -201,7 +201,9 @@ struct Gatherer final : Collector {
   }
   double meet(unsigned lane, const PartCrossing& crossing) override {
     met[lane].push_back(crossing);
-    stop[lane] = std::min(stop[lane], std::max(0.0, crossing.interval.enter) + depths[crossing.solid]);
+    // A part that is deep enough to use up the whole budget by itself ends the ray, whatever else lies on it.
+    const double end = std::max(0.0, crossing.interval.enter) + depths[crossing.solid];
+    if (end <= crossing.interval.leave) stop[lane] = std::min(stop[lane], end);
     return stop[lane];
   }
 };

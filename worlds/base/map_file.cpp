@@ -43,13 +43,19 @@ struct MapHeader {
   double free_thresh = saved_free_thresh;
 };
 
+std::string listed(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+  return list;
+}
+
 /// `file:line:column`; yaml-cpp counts from 0, and has -1 for what stands nowhere.
 std::string place(const fs::path& file, const YAML::Mark& mark) {
   return mark.line < 0 ? file.string() : fmt::format("{}:{}:{}", file.string(), mark.line + 1, mark.column + 1);
 }
 
 std::string shown(const YAML::Node& value) {
-  if (value.IsScalar()) return "'" + printable(value.Scalar()) + "'";
+  if (value.IsScalar()) return fmt::format("'{}'", printable(value.Scalar()));
   if (value.IsSequence()) return "a list";
   return value.IsMap() ? "a map" : "empty";
 }
@@ -72,7 +78,7 @@ class HeaderReader {
 
   Result<MapHeader> read(const YAML::Node& root, bool image_needed) {
     if (!root.IsMap()) {
-      fault(root.Mark(), fmt::format("not a map, expected the keys {}", fmt::join(known_keys, ", ")));
+      fault(root.Mark(), fmt::format("not a map, expected the keys {}", listed(known_keys)));
       return Error{faults_};
     }
     take_keys(root);
@@ -111,7 +117,7 @@ class HeaderReader {
       if (std::find(known_keys.begin(), known_keys.end(), key) == known_keys.end()) {
         const auto meant = nearest_word(key, known_keys);
         if (meant) misspelt_.insert(*meant);
-        const std::string expected = meant ? "" : fmt::format(", expected one of {}", fmt::join(known_keys, ", "));
+        const std::string expected = meant ? "" : fmt::format(", expected one of {}", listed(known_keys));
         fault(mark, fmt::format("unknown key '{}'{}{}", printable(key), did_you_mean(key, known_keys), expected));
         continue;
       }
@@ -177,7 +183,7 @@ class HeaderReader {
     const Entry& entry = found->second;
     header_.mode = entry.value.IsScalar() ? entry.value.Scalar() : "";
     if (std::find(known_modes.begin(), known_modes.end(), header_.mode) != known_modes.end()) return;
-    fault("mode", entry, fmt::format("{}{}", fmt::join(known_modes, ", "), did_you_mean(header_.mode, known_modes)));
+    fault("mode", entry, fmt::format("{}{}", listed(known_modes), did_you_mean(header_.mode, known_modes)));
   }
 
   bool take_threshold(const std::string& key, double& threshold) {

@@ -90,22 +90,23 @@ class OccupancyMap {
     Window& operator=(Window&&) = default;
     ~Window() = default;
 
-    std::vector<std::uint16_t> stamps;  ///< scan stamp * 4 + state
-    std::vector<std::uint32_t> touched;
-    std::uint16_t stamp = 0;
-    std::int64_t column = 0, row = 0;  ///< of the lower-left cell
-    std::uint32_t width = 0;
+    std::vector<std::uint8_t> states;  ///< a square of cells, all untouched between scans
+    std::int64_t tiles = 0;            ///< its edge, in tiles
+    /// From a row to the next: an odd number of tiles, for a power of two would put all cells of a column into one set of the cache.
+    std::int64_t stride() const { return (tiles | 1) * tile_size; }
+    CellIndex tile;  ///< the tile of its lower-left cell
   };
-  enum State : std::uint16_t { free = 1, through = 2, occupied = 3 };
+  enum State : std::uint8_t { untouched = 0, free = 1, through = 2, occupied = 3 };
 
+  void place_window(const Scan& scan, const glm::dvec2& sensor);
   void draw_beam(const Scan& scan, const Beam& beam, const glm::dvec2& from, const glm::dvec2& direction, double scale);
-  void touch(std::uint32_t index, State state);
   void apply();
-  Tile& writable_tile(const CellIndex& tile);
+  void apply_to_tile(const CellIndex& tile, std::uint8_t* states);
   const Tile* tile(const CellIndex& cell) const;
 
   MapSpec spec_;
-  int hit_, miss_, low_, high_;  ///< in units of 1/32
+  int low_;  ///< the lower clamp in units of 1/32
+  std::array<std::int8_t, 4 * 256> next_value_;  ///< [state * 256 + value as a byte]: what a scan makes of a cell
   std::unordered_map<CellIndex, std::shared_ptr<Tile>, CellHash> tiles_;
   Window window_;
 };

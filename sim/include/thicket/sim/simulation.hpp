@@ -49,6 +49,8 @@ class Simulation {
  public:
   /// Reads the mission's world and makes everything ready; nothing has happened yet.
   static Result<Simulation> create(const Mission& mission);
+  /// The same in a world that is at hand already, whatever world the mission names.
+  static Result<Simulation> create(const Mission& mission, World world);
 
   Simulation(const Simulation& other);
   Simulation& operator=(const Simulation& other);

@@ -36,6 +36,7 @@ enum class BeamEnd : std::uint8_t {
 struct Beam {
   double azimuth = 0.0;    ///< rad in the sensor's frame, counter-clockwise from its x axis
   double elevation = 0.0;  ///< rad, upward
+  glm::dvec3 direction{1.0, 0.0, 0.0};  ///< the same as a unit vector of the sensor's frame
   double sensed_range = 0.0;      ///< m; as far as the beam sensed anything (for an exhausted beam a point inside matter)
   std::uint32_t first_echo = 0;   ///< index into Scan::echoes
   std::uint32_t echo_count = 0;   ///< echoes by increasing range

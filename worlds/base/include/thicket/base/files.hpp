@@ -21,8 +21,8 @@ Result<Done> write_file(const std::filesystem::path& file, std::string_view cont
 /// `THICKET_DATA`, `../share/thicket` beside the running program, and the source tree that it was built from.
 std::filesystem::path shipped_root();
 
-/// `name` as it is if it exists; else, if it is relative, below `shipped_root()`, below its `worlds/data`, and then the same three with `.toml`
-/// added. A folder is not an input. Empty if there is no such file.
+/// `name` as it is if it exists; else, if it is relative, below `shipped_root()`, below its `worlds/data`, and then the same three with
+/// `.toml` added. A folder is not an input. Empty if there is no such file.
 std::filesystem::path find_input(const std::filesystem::path& name);
 
 /// How a file is named in a written mission: relative to `shipped_root()` if it lies there, else absolute.
