@@ -14,10 +14,11 @@ double distance_to_segment(const glm::dvec2& point, const glm::dvec2& from, cons
   return glm::distance(point, from + t * along);
 }
 
-BoundaryWalk::BoundaryWalk(const Pose2& hit, const glm::dvec2& goal, double same_place)
+BoundaryWalk::BoundaryWalk(const Pose2& hit, const glm::dvec2& goal, double same_place, double keep)
     : hit_(hit.position),
       goal_(goal),
       same_place_(same_place),
+      keep_(keep),
       previous_(hit),
       current_(hit),
       closest_(hit.position),
@@ -27,23 +28,35 @@ void BoundaryWalk::advance(const Pose2& pose) {
   previous_ = current_;
   current_ = pose;
   length_ += glm::distance(previous_.position, current_.position);
+  turned_ += wrap_angle(current_.yaw - previous_.yaw);
   const double to_goal = glm::distance(pose.position, goal_);
   if (to_goal < closest_distance_) {
     closest_ = pose.position;
     closest_distance_ = to_goal;
     length_at_closest_ = length_;
   }
-  if (!armed_) {
-    armed_ = glm::distance(pose.position, hit_) > 3.0 * same_place_;
-    leaving_yaw_ = pose.yaw;
+  if (closed_) return;
+  for (const TrackPoint& point : track_) {
+    if (!rejoins(point)) continue;
+    closed_ = true;
+    rejoined_ = point.length;
     return;
   }
-  turned_ += wrap_angle(current_.yaw - previous_.yaw);
-  const bool here = distance_to_segment(hit_, previous_.position, current_.position) <= same_place_;
-  const bool faces_as_before = std::abs(wrap_angle(pose.yaw - leaving_yaw_)) < radians(135.0);
-  // The turn at the hit point itself is not in the sum: a hit in a sharp corner leaves out up to half a turn.
-  const bool once_around = std::abs(turned_) > pi && std::abs(turned_) < 3.0 * pi;
-  if (here && faces_as_before && once_around) closed_ = true;
+  if (milestone_.length > 0.0 && rejoins(milestone_)) strayed_ = true;
+  if (length_ > std::max(2.0 * milestone_.length, 2.0 * pi * keep_)) milestone_ = {pose.position, length_, turned_};
+  // Short against any boundary (none is shorter than the circle around a point, 2 pi keep), and short enough to lie on the one that was hit.
+  const bool away = length_ > 3.0 * same_place_ && length_ < 1.5 * keep_;
+  if (away && (track_.empty() || length_ - track_.back().length >= same_place_)) track_.push_back({pose.position, length_, turned_});
+}
+
+bool BoundaryWalk::rejoins(const TrackPoint& point) const {
+  if (std::abs(std::abs(turned_ - point.turned) - 2.0 * pi) > radians(75.0)) return false;
+  return distance_to_segment(point.position, previous_.position, current_.position) <= same_place_;
+}
+
+double BoundaryWalk::onward_to_closest() const {
+  const double loop = loop_length(), onward = std::fmod(length_at_closest_ - rejoined_, loop);
+  return onward < 0.0 ? onward + loop : onward;
 }
 
 }  // namespace thicket

@@ -1,6 +1,8 @@
 // The book-keeping of a walk around an obstacle: how far, how much turned, where closest to the goal, and whether the loop is closed. Private to the room.
 #pragma once
 
+#include <vector>
+
 #include <glm/vec2.hpp>
 
 #include "thicket/base/pose.hpp"
@@ -9,38 +11,51 @@ namespace thicket {
 
 /// Fed with every pose from the hit point on.
 ///
-/// The loop is closed when the hit point is passed again with two witnesses: the robot faces about the way it left it, and it has turned about once around
-/// (the boundary of an obstacle and that of a room both turn by 2 pi). Both are armed only after leaving the hit point's neighbourhood, for the walk starts in it.
+/// The loop is closed when the robot comes back onto the beginning of its own track, with two witnesses: it is there, and between the two times it has turned
+/// once around (the boundary of an obstacle and that of a room both turn by 2 pi; the far side of a narrow corridor does not). The beginning of the track and not
+/// the hit point alone, because a hit in a notch is not passed again: the robot swings around in it a little differently each time.
 class BoundaryWalk {
  public:
   BoundaryWalk() = default;
-  BoundaryWalk(const Pose2& hit, const glm::dvec2& goal, double same_place);
+  /// `same_place`: two positions are the same within this; `keep`: the distance of the robot's axis from matter, the scale of everything here.
+  BoundaryWalk(const Pose2& hit, const glm::dvec2& goal, double same_place, double keep);
 
   void advance(const Pose2& pose);
 
   const glm::dvec2& hit() const { return hit_; }
   double length() const { return length_; }
-  /// Away from the hit point for the first time since the start.
-  bool armed() const { return armed_; }
+  /// Away from the hit point for the first time since the start, where every test would succeed at once.
+  bool armed() const { return !track_.empty(); }
   bool closed() const { return closed_; }
+  /// The walk goes round and round on a boundary that the hit point is not on: a gap just as wide as the robot needs was shut once and open the next time.
+  bool strayed() const { return strayed_; }
 
-  /// The place on the boundary that is closest to the goal so far, and how far along the walk it lies.
+  /// Where on the boundary it was closest to the goal so far.
   const glm::dvec2& closest() const { return closest_; }
   double closest_distance() const { return closest_distance_; }
-  double length_at_closest() const { return length_at_closest_; }
+  /// Of a closed loop: its length, and how far it is from its end onward to the closest point.
+  double loop_length() const { return length_ - rejoined_; }
+  double onward_to_closest() const;
 
   /// The step from the pose before to the last one.
   const glm::dvec2& previous() const { return previous_.position; }
   const glm::dvec2& current() const { return current_.position; }
 
  private:
+  struct TrackPoint {
+    glm::dvec2 position{0.0, 0.0};
+    double length = 0.0, turned = 0.0;
+  };
+  bool rejoins(const TrackPoint& point) const;
+
   glm::dvec2 hit_{0.0, 0.0}, goal_{0.0, 0.0};
-  double same_place_ = 0.1;
+  double same_place_ = 0.1, keep_ = 1.0;
   Pose2 previous_, current_;
-  double length_ = 0.0;
-  double turned_ = 0.0;       ///< since armed, rad
-  double leaving_yaw_ = 0.0;  ///< when armed
-  bool armed_ = false, closed_ = false;
+  double length_ = 0.0, turned_ = 0.0;  ///< since the hit, m and rad
+  std::vector<TrackPoint> track_;       ///< the beginning of the walk
+  TrackPoint milestone_;                ///< a point of the walk, moved on whenever the walk has become twice as long (Brent 1980)
+  bool closed_ = false, strayed_ = false;
+  double rejoined_ = 0.0;               ///< length at the track point that closed the loop
   glm::dvec2 closest_{0.0, 0.0};
   double closest_distance_ = 0.0, length_at_closest_ = 0.0;
 };

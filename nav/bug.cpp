@@ -4,6 +4,11 @@
 
 namespace thicket {
 
+namespace {
+/// As often the walk may stray from the boundary that was hit before the planner says so instead of trying again.
+constexpr int most_strays = 10;
+}  // namespace
+
 Bug::Bug(const PlannerSpec& spec, const VehicleLimits& vehicle, const glm::dvec2& start)
     : pilot_(spec, vehicle), start_(start), goal_(*spec.goal_m), first_hand_(spec.hand == "right" ? Hand::right : Hand::left), hand_(first_hand_) {}
 
@@ -15,12 +20,25 @@ Decision Bug::decide(const Senses& senses) {
     on_boundary_ = true;
     hand_ = first_hand_;
     pilot_.touch_wall_toward(goal_);
-    walk_ = BoundaryWalk(pilot_.pose(), goal_, pilot_.same_place());
+    walk_ = BoundaryWalk(pilot_.pose(), goal_, pilot_.same_place(), pilot_.keep());
     mark("hit", walk_.hit());
     on_hit();
   }
   walk_.advance(pilot_.pose());
+  if (walk_.strayed() && !walk_.closed()) {
+    if (++strays_ > most_strays)
+      return {{}, Outcome::stuck, "lost the boundary", fmt::format("{} times the boundary that was followed did not lead back to where it was hit", strays_)};
+    return leave();
+  }
   return on_boundary();
+}
+
+bool Bug::leads_away() {
+  if (pilot_.open_toward(goal_)) return true;
+  // Only ever nearer to the goal, so that two obstacles cannot pass the robot from one to the other for ever.
+  if (!pilot_.blocked_by_other(goal_) || distance_to_goal() > left_for_other_ - pilot_.same_place()) return false;
+  left_for_other_ = distance_to_goal();
+  return true;
 }
 
 Decision Bug::follow(const char* state) {

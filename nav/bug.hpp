@@ -1,6 +1,7 @@
 // What Bug1 and Bug2 have in common: go to the goal until something is in the way, walk along it. Private to the room.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ class Bug : public Planner {
   /// What to remember when a boundary is met.
   virtual void on_hit() {}
 
+  /// The way from here to the goal does not enter the obstacle that is followed: it is open, or it is something else that stands in it.
+  bool leads_away();
   Decision follow(const char* state);
   Decision leave();
   Decision unreachable(const std::string& why) const;
@@ -42,6 +45,8 @@ class Bug : public Planner {
   Hand first_hand_;
   Hand hand_;
   bool on_boundary_ = false;
+  int strays_ = 0;
+  double left_for_other_ = INFINITY;  ///< distance to the goal when a boundary was last left for another obstacle
   BoundaryWalk walk_;
   std::vector<Mark> marks_;
 };

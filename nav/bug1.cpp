@@ -29,7 +29,7 @@ class Bug1 final : public Bug {
     was_due_ = due;
     last_away_ = away;
     const bool here = due && (going_by || away <= pilot().same_place());
-    if (here && pilot().open_toward(goal())) return leave();
+    if (here && leads_away()) return leave();
     if (going_by || walked > expected_ + 2.0 * slack_)
       return unreachable("the whole boundary was walked, and at its point closest to the goal the way to the goal leads into the obstacle");
     return follow("returning to the point closest to the goal");
@@ -41,9 +41,9 @@ class Bug1 final : public Bug {
     closest_ = walk().closest();
     mark("closest", closest_);
     length_at_return_ = walk().length();
-    const double onward = walk().length_at_closest(), loop = walk().length();
-    if (loop - onward < onward) turn_round();
-    expected_ = std::min(onward, loop - onward);
+    const double onward = walk().onward_to_closest(), back = walk().loop_length() - onward;
+    if (back < onward) turn_round();
+    expected_ = std::min(onward, back);
     slack_ = 4.0 * pilot().same_place() + 0.1 * expected_;
   }
 

@@ -20,7 +20,7 @@ class Bug2 final : public Bug {
     if (walk().armed()) {
       const auto crossing = crosses_m_line();
       const double hit_distance = glm::distance(walk().hit(), goal());
-      if (crossing && glm::distance(*crossing, goal()) < hit_distance - pilot().same_place() && pilot().open_toward(goal())) return leave();
+      if (crossing && glm::distance(*crossing, goal()) < hit_distance - pilot().same_place() && leads_away()) return leave();
     }
     if (walk().closed()) return unreachable("the hit point was met again without a crossing of the M-line to leave at");
     return follow("following the boundary");

@@ -27,6 +27,8 @@ class Pilot {
   bool blocked_toward(const glm::dvec2& point) const;
   /// The straight way is open for more than a moment. (Neither blocked nor open: too close to call; planners go on with what they do.)
   bool open_toward(const glm::dvec2& point) const;
+  /// While following: what blocks the straight way is not the wall under the hand but something on the other side of the robot, as in a gap just as wide as it needs.
+  bool blocked_by_other(const glm::dvec2& point) const;
   /// Drives straight toward a point and brakes for it and for what stands before it.
   Command go_to(const glm::dvec2& point) const;
 
@@ -39,15 +41,19 @@ class Pilot {
 
   /// Two positions count as the same place within this, m.
   double same_place() const { return same_place_; }
+  /// Distance that the robot's axis keeps from matter, m.
+  double keep() const { return keep_; }
 
  private:
   Steering::Way way_to(const glm::dvec2& point) const;
+  /// `heading` beyond +-pi turns the long way round.
   Command drive(double heading, double way) const;
 
   VehicleLimits vehicle_;
   double keep_;        ///< hull radius + clearance: distance of the axis from matter
   double gap_;         ///< a way shorter than this is no way
   double look_ahead_;  ///< m
+  double following_speed_;
   double same_place_;
   double speed_;
   double goal_tolerance_;

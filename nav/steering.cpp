@@ -11,10 +11,9 @@ namespace {
 /// Half of the interval of headings that a disc of radius `keep` at `distance` blocks within `look_ahead`; 0 for none.
 double blocked_half_width(double distance, double keep, double look_ahead) {
   if (distance >= keep + look_ahead) return 0.0;
-  if (distance <= keep) {
-    // Already too near: what leads no farther away is blocked too, the more the nearer; straight away stays open.
-    return 0.5 * pi + std::min(radians(60.0), (keep - distance) / look_ahead);
-  }
+  // Already too near: whatever leads closer is blocked, and more than that where it is too near by more than a robot swings anyway. (From the first
+  // millimetre on, a gap that is open for a robot in its middle would be shut for one that is off by a finger's breadth.)
+  if (distance <= keep) return 0.5 * pi + std::min(radians(60.0), std::max(0.0, keep - distance - 0.1 * look_ahead) / look_ahead);
   const double tangent = std::sqrt(distance * distance - keep * keep);
   if (tangent <= look_ahead) return std::asin(keep / distance);
   return std::acos(std::clamp((distance * distance + look_ahead * look_ahead - keep * keep) / (2.0 * distance * look_ahead), -1.0, 1.0));
@@ -44,7 +43,15 @@ std::optional<Steering::Edge> Steering::sweep(double from, int turn) const {
         point = b.point;
       }
     }
-    if (!point) return edge;
+    if (!point) {
+      edge.open = 2.0 * pi;
+      for (const Blocked& b : blocked_) {
+        const double to_bearing = sign * wrap_angle(b.bearing - edge.heading);
+        edge.open = std::min(edge.open, (to_bearing < 0.0 ? to_bearing + 2.0 * pi : to_bearing) - b.half_width);
+      }
+      edge.open = std::max(0.0, edge.open);
+      return edge;
+    }
     turned += farthest;
     if (turned >= 2.0 * pi) return std::nullopt;
     edge.heading = wrap_angle(edge.heading + sign * farthest);

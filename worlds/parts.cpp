@@ -78,9 +78,8 @@ bool cut(double low, double high, double origin, double direction, std::int8_t f
 
 constexpr std::int8_t side = 6;  // the curved face of a sphere or cylinder; 0...5 are -x, +x, -y, +y, -z, +z
 
-/// Ranges at which a t^2 + 2 b t + c = 0, without cancellation; false if there are none or the line only touches.
-bool roots(double a, double b, double c, double& near, double& far) {
-  const double discriminant = b * b - a * c;
+/// Ranges at which a t^2 + 2 b t + c = 0, given its discriminant b^2 - a c; false if there are none or the line only touches.
+bool roots(double a, double b, double c, double discriminant, double& near, double& far) {
   if (!(discriminant > 0.0)) return false;
   const double q = -(b + std::copysign(std::sqrt(discriminant), b));
   near = q / a;
@@ -130,7 +129,10 @@ bool cross(const CylinderPart& part, const glm::dvec3& origin, const glm::dvec3&
   const double a = direction.x * direction.x + direction.y * direction.y;
   const double c = o.x * o.x + o.y * o.y - part.radius * part.radius;
   if (a > 0.0) {
-    if (!roots(a, o.x * direction.x + o.y * direction.y, c, interval.enter, interval.leave)) return false;
+    // b^2 - a c by Lagrange's identity: b^2 and a c by themselves would cancel where the cylinder is thin and far away.
+    const double off = o.x * direction.y - o.y * direction.x;
+    const double discriminant = a * part.radius * part.radius - off * off;
+    if (!roots(a, o.x * direction.x + o.y * direction.y, c, discriminant, interval.enter, interval.leave)) return false;
   } else if (!(c < 0.0)) {
     return false;
   }

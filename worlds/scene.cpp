@@ -30,6 +30,17 @@ struct SceneDeleter {
 
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
+/// Whether the numbers of a shape are finite.
+struct FiniteShape {
+  bool operator()(const Box& b) const { return finite(b.size); }
+  bool operator()(const Sphere& s) const { return std::isfinite(s.radius); }
+  bool operator()(const Cylinder& c) const { return std::isfinite(c.radius) && std::isfinite(c.height); }
+  bool operator()(const Wall& w) const {
+    return std::isfinite(w.thickness) && std::isfinite(w.height) && std::ranges::all_of(w.points, [](const glm::dvec2& p) { return finite({p, 0.0}); });
+  }
+  bool operator()(const MapSolid& m) const { return std::isfinite(m.grid.resolution) && std::isfinite(m.height); }
+};
+
 bool traceable(const Ray& ray) {
   if (!finite(ray.origin) || !finite(ray.direction)) return false;
   return std::abs(glm::length(ray.direction) - 1.0) <= 1e-6 && ray.range_max >= 0.0;  // NaN fails
@@ -140,7 +151,8 @@ void intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
     const LaneRay& lane = query.lanes[lane_index];
     PartCrossing crossing;
     if (!cross(part, lane.origin, lane.direction, crossing.interval)) continue;
-    if (!(crossing.interval.leave > 0.0) || crossing.interval.enter > lane.range_max) continue;
+    // A part that is left at 0 counts where another part of its solid goes on from there: the ray then starts inside.
+    if (!(crossing.interval.leave >= 0.0) || crossing.interval.enter > lane.range_max) continue;
     crossing.solid = part.solid;
     crossing.kind = kind_of<Part>;
     crossing.part = arguments->primID;
@@ -178,7 +190,7 @@ struct Nearest final : Collector {
     return stops == Stops::everything || (stops == Stops::light ? material.stops_light : material.stops_motion);
   }
   double meet(unsigned lane, const PartCrossing& crossing) override {
-    if (!blocks(crossing.solid)) return infinity;
+    if (!blocks(crossing.solid) || crossing.interval.leave == 0.0) return infinity;
     const double at = std::max(0.0, crossing.interval.enter);
     if (at < range[lane] || (at == range[lane] && before(crossing, best[lane]))) {
       range[lane] = at;
@@ -203,7 +215,7 @@ struct Gatherer final : Collector {
     met[lane].push_back(crossing);
     // A part that is deep enough to use up the whole budget by itself ends the ray, whatever else lies on it.
     const double end = std::max(0.0, crossing.interval.enter) + depths[crossing.solid];
-    if (end <= crossing.interval.leave) stop[lane] = std::min(stop[lane], end);
+    if (end < crossing.interval.leave) stop[lane] = std::min(stop[lane], end);
     return stop[lane];
   }
 };
@@ -297,7 +309,8 @@ Result<Scene> Scene::build(World world) {
   auto impl = std::make_shared<Impl>();
   impl->world = std::move(world);
   for (const Solid& solid : impl->world.solids)
-    if (!finite(solid.position) || !std::isfinite(solid.yaw)) return Error{fmt::format("solid '{}' has a position that is not finite", solid.name)};
+    if (!finite(solid.position) || !std::isfinite(solid.yaw) || !std::visit(FiniteShape{}, solid.shape))
+      return Error{fmt::format("solid '{}' has a position, yaw or size that is not finite", solid.name)};
   if (const auto all = extent(impl->world)) {
     impl->origin = 0.5 * (all->low + all->high);
     const glm::dvec3 half = 0.5 * (all->high - all->low);

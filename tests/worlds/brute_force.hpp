@@ -100,15 +100,28 @@ struct Stretch {
   }
 };
 
-/// The quadratic formula as it stands in any textbook: |start + t way| <= radius, in two or three dimensions.
+/// |start + t way| <= radius, in two or three dimensions: the quadratic formula of any textbook, from the point of the line that is nearest to the middle.
 template <class V>
 bool round_stretch(const V& start, const V& way, Real radius, Real& enter, Real& leave) {
-  const Real a = glm::dot(way, way), b = 2 * glm::dot(start, way), c = glm::dot(start, start) - radius * radius;
+  const Real a = glm::dot(way, way);
+  if (!(a > 0)) return false;
+  const Real nearest = -glm::dot(start, way) / a;
+  const V from = start + nearest * way;
+  const Real b = 2 * glm::dot(from, way), c = glm::dot(from, from) - radius * radius;
   const Real discriminant = b * b - 4 * a * c;
-  if (!(discriminant > 0) || !(a > 0)) return false;
-  enter = (-b - std::sqrt(discriminant)) / (2 * a);
-  leave = (-b + std::sqrt(discriminant)) / (2 * a);
+  if (!(discriminant > 0)) return false;
+  enter = nearest + (-b - std::sqrt(discriminant)) / (2 * a);
+  leave = nearest + (-b + std::sqrt(discriminant)) / (2 * a);
   return true;
+}
+
+/// Whether the line passes the ball around a piece by more than rounding: a shortcut, nothing else.
+inline bool far_off(const Piece& piece, const Ray& ray) {
+  const glm::dvec3 o = ray.origin - glm::dvec3(piece.centre);
+  const glm::dvec3 off = o - glm::dot(o, ray.direction) * ray.direction;
+  const glm::dvec3 half(piece.half);
+  const double reach = 1.001 * (piece.kind == Piece::Kind::ball ? half.x : glm::length(half)) + 0.001;
+  return glm::dot(off, off) > reach * reach;
 }
 
 /// Where the whole line is inside a piece.
@@ -148,6 +161,7 @@ inline std::vector<Crossing> crossings(const std::vector<std::vector<Piece>>& so
   for (std::size_t i = 0; i < solids.size(); ++i) {
     std::vector<Stretch> list;
     for (const Piece& piece : solids[i]) {
+      if (far_off(piece, ray)) continue;
       const Stretch s = stretch(piece, Vec3(ray.origin), Vec3(ray.direction));
       if (!s.empty()) list.push_back(s);
     }

@@ -19,6 +19,7 @@ class Steering {
   struct Edge {
     double heading = 0.0;
     std::optional<std::size_t> point;  ///< none: `from` itself was open
+    double open = 0.0;                 ///< how far the headings stay open when turning on, rad
   };
   /// The first open heading when turning from `from` counter-clockwise (`turn` > 0) or clockwise; nothing if all are blocked.
   std::optional<Edge> sweep(double from, int turn) const;

@@ -5,6 +5,7 @@
 // then solved in double precision. An answer depends on its own ray alone: not on the other rays of the span, on packets or on threads.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -111,14 +112,26 @@ class Scene {
 
 template <class Path>
 double Scene::first_contact(const Hull& hull, Path&& position_at, double length, double limit, Clearance& nearest, double& least) const {
-  constexpr double touching = 1e-6, smallest_step = 1e-4;
-  double s = 0.0;
+  constexpr double touching = 1e-6, smallest_step = 1e-4, exact = 1e-9;
+  // What is farther than the way that is left cannot be met: looking that far is enough, and `limit` widens it for the record.
+  const auto look = [&](double s) { return clearance(hull, position_at(s), std::max({limit, length - s, touching})); };
+  double s = 0.0, clear = 0.0;  // clear: where the last look found no contact
   for (;;) {
-    // What is farther than the way that is left cannot be met: looking that far is enough, and `limit` widens it for the record.
-    nearest = clearance(hull, position_at(s), std::max(limit, length - s));
+    nearest = look(s);
+    // The smallest step may be more than the clearance allowed: where it touches, the contact lies somewhere between its ends.
+    for (double middle = 0.5 * (clear + s); nearest.distance < touching && s - clear > exact && clear < middle && middle < s; middle = 0.5 * (clear + s)) {
+      const Clearance there = look(middle);
+      if (there.distance < touching) {
+        s = middle;
+        nearest = there;
+      } else {
+        clear = middle;
+      }
+    }
     least = std::min(least, nearest.distance);
     if (nearest.distance < touching) return s;
     if (s >= length) return infinity;
+    clear = s;
     s = std::min(length, s + std::max(nearest.distance, smallest_step));
   }
 }
