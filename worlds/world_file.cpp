@@ -165,7 +165,8 @@ class WorldReader {
     const Node* type = entry.find("type");
     const auto* word = type ? std::get_if<std::string>(&type->content) : nullptr;
     const std::string expected = fmt::format("expected one of '{}'", fmt::join(shape_types(), "', '"));
-    if (!word) return faults.add(type ? type->place : entry.place, fmt::format("[[solid]] lacks a 'type', {}", expected));
+    if (!type) return faults.add(entry.place, fmt::format("[[solid]] lacks a 'type', {}", expected));
+    if (!word) return faults.add(type->place, fmt::format("'type' is {}, {}", type->kind_in_words(), expected));
     if (*word == "box") return add(entry, box_section(), SolidKeys<Box>{});
     if (*word == "sphere") return add(entry, sphere_section(), SolidKeys<Sphere>{});
     if (*word == "cylinder") return add(entry, cylinder_section(), SolidKeys<Cylinder>{});
@@ -184,7 +185,7 @@ class WorldReader {
     const auto found = std::find(material_names_.begin(), material_names_.end(), keys.material);
     if (found != material_names_.end()) {
       solid.material = static_cast<std::uint32_t>(found - material_names_.begin());
-    } else if (const Node* material = entry.find("material")) {
+    } else if (const Node* material = entry.find("material"); material && std::holds_alternative<std::string>(material->content)) {
       faults.add(material->place, fmt::format("there is no material '{}', expected a table [material.{}]{}", keys.material, keys.material,
                                               did_you_mean(keys.material, material_names_)));
     }
@@ -199,7 +200,8 @@ class WorldReader {
   void finish(const Node& entry, SolidKeys<Wall>& keys, Solid& solid) {
     const auto& points = keys.shape.points;
     const Node* node = entry.find("points_m");
-    if (node && points.size() < 2) faults.add(node->place, fmt::format("'points_m' has {} points, expected two or more", points.size()));
+    if (node && node->array() && node->array()->size() < 2)
+      faults.add(node->place, fmt::format("'points_m' has {} points, expected two or more", node->array()->size()));
     for (std::size_t i = 1; i < points.size(); ++i)
       if (points[i] == points[i - 1]) faults.add(node->place, fmt::format("points {} and {} of 'points_m' are the same, expected different ones", i, i + 1));
     solid.shape = std::move(keys.shape);

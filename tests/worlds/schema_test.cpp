@@ -250,7 +250,7 @@ TEST_CASE("a section describes itself") {
   CHECK(text.find("[everything]  one key of each kind\n") == 0);
   for (const char* part : {"a number in m, at least 0 and at most 5; default 0.0", "not given", "one of 'north', 'south'; default \"north\"",
                            "true or false; default false"}) {
-    CAPTURE(part);
+    CAPTURE(std::string(part));
     CHECK(text.find(part) != std::string::npos);
   }
 }

@@ -231,7 +231,7 @@ TEST_CASE("broken files are told with their place, what is wrong and what was ex
        "w.toml:4:1: [[solid]] of type \"sphere\" lacks the key 'radius_m', expected a number in m, above 0 and at most 1000000000"},
       {"missing type", "[[solid]]\nmaterial = \"wall\"\nradius_m = 1\n",
        "w.toml:4:1: [[solid]] lacks a 'type', expected one of 'box', 'sphere', 'cylinder', 'wall', 'map'"},
-      {"type that is no text", "[[solid]]\ntype = 1\nmaterial = \"wall\"\n", "w.toml:5:8: "},
+      {"type that is no text", "[[solid]]\ntype = 1\nmaterial = \"wall\"\n", "w.toml:5:8: 'type' is an integer, expected one of 'box', 'sphere', 'cylinder', 'wall', 'map'"},
       {"unknown type", "[[solid]]\ntype = \"sphare\"\nmaterial = \"wall\"\nradius_m = 1\n",
        "w.toml:5:8: 'type' is 'sphare', expected one of 'box', 'sphere', 'cylinder', 'wall', 'map' (did you mean 'sphere'?)"},
       {"solid that is one table", "[solid]\ntype = \"sphere\"\n", "w.toml:4:1: 'solid' is not an array of tables, expected entries [[solid]]"},
@@ -240,11 +240,12 @@ TEST_CASE("broken files are told with their place, what is wrong and what was ex
       {"no points", "[[solid]]\ntype = \"wall\"\nmaterial = \"wall\"\n", "w.toml:4:1: [[solid]] of type \"wall\" lacks the key 'points_m', expected"},
       {"points that repeat", "[[solid]]\ntype = \"wall\"\nmaterial = \"wall\"\npoints_m = [[0, 0], [1, 0], [1.0, 0.0], [2, 0]]\n",
        "w.toml:7:12: points 2 and 3 of 'points_m' are the same, expected different ones"},
+      {"empty points", "[[solid]]\ntype = \"wall\"\nmaterial = \"wall\"\npoints_m = []\n", "w.toml:7:12: 'points_m' has 0 points, expected two or more"},
       {"point of three numbers", "[[solid]]\ntype = \"wall\"\nmaterial = \"wall\"\npoints_m = [[0, 0], [1, 0, 0]]\n", "w.toml:7:21: 'points_m' has an array of length 3"},
       {"map without a file", "[[solid]]\ntype = \"map\"\nmaterial = \"wall\"\n", "w.toml:4:1: [[solid]] of type \"map\" lacks the key 'file', expected a text in quotes"},
   };
   for (const Broken& broken : table) {
-    CAPTURE(broken.what);
+    CAPTURE(std::string(broken.what));
     const std::string error = error_below_head(broken.text);
     CAPTURE(error);
     CHECK(error.find(broken.error) == 0);
@@ -296,7 +297,7 @@ TEST_CASE("all faults of a file are told at once, in its order") {
   std::size_t from = 0;
   for (const char* part : {"w.toml:4:1: unknown key 'colour'", "w.toml:8:12: 'radius_m' is -1", "w.toml:10:8: 'type' is 'ball'", "w.toml:14:10: 'size_m' has",
                            "w.toml:13:12: there is no material 'glass'", "w.toml:19:12: 'height_m' is 0", "w.toml:18:12: points 1 and 2", "none.yaml"}) {
-    CAPTURE(part);
+    CAPTURE(std::string(part));
     const std::size_t at = error.find(part, from);
     CHECK(at != std::string::npos);
     if (at != std::string::npos) from = at;
@@ -370,7 +371,7 @@ TEST_CASE("the help on world files names every key") {
                           "[[solid]] of type \"box\"", "size_m", "[[solid]] of type \"sphere\"", "radius_m", "[[solid]] of type \"cylinder\"", "height_m",
                           "[[solid]] of type \"wall\"", "points_m", "thickness_m", "[[solid]] of type \"map\"", "file", "image", "unknown_is_matter",
                           "position_m", "yaw_deg"}) {
-    CAPTURE(key);
+    CAPTURE(std::string(key));
     CHECK(help.find(key) != std::string::npos);
   }
 }
