@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::size_t open_space = static_cast<std::size_t>(-1);
 
+/// Faces nearer to one another than this touch: the numbers of two solids that share a face meet only to rounding.
+constexpr double same_place = 1e-9;  // m
+
 /// An end of a crossing.
 struct Event {
   double range;
@@ -72,16 +75,23 @@ void trace_echoes(const World& world, std::span<const Crossing> crossings, const
   const Wave wave(world, crossings, limits);
   std::size_t medium = wave.strongest(active);
   beam.starts_inside = wave.is_matter(medium);
+  if (medium != open_space && wave.material(medium).opaque()) {
+    beam.end = BeamEnd::exhausted;
+    beam.sensed_range = 0.0;
+    return;
+  }
   double at = 0.0, loss_db = 0.0, passed = 1.0;  // passed: fraction of power that the interfaces let through, one way
+  // What may be lost inside matter until the budget is used up or a perfect reflector would come back below the floor.
+  const auto bearable_loss = [&] { return std::min(limits.budget_db, -5.0 * std::log10(limits.floor_power / (passed * passed))); };
+  double most_db = bearable_loss();
 
   for (std::size_t e = 0; e < events.size();) {
     const double range = events[e].range;
     if (medium != open_space && wave.attenuation(medium) > 0.0) {
       const double through = wave.attenuation(medium) * (std::min(range, limits.range_max) - at);
-      if (loss_db + through >= limits.budget_db) {
+      if (loss_db + through >= most_db) {
         beam.end = BeamEnd::exhausted;
-        const double depth = wave.material(medium).opaque() ? 0.0 : (limits.budget_db - loss_db) / wave.attenuation(medium);
-        beam.sensed_range = std::min(limits.range_max, at + depth);
+        beam.sensed_range = std::min(limits.range_max, at + (most_db - loss_db) / wave.attenuation(medium));
         break;
       }
       loss_db += through;
@@ -90,7 +100,7 @@ void trace_echoes(const World& world, std::span<const Crossing> crossings, const
 
     // Everything that begins or ends here happens at once: two solids that share a face have no gap between them.
     const Event* surface = &events[e];
-    for (; e < events.size() && events[e].range == range; ++e) {
+    for (; e < events.size() && events[e].range <= range + same_place; ++e) {
       if (events[e].enters) {
         active.push_back(events[e].crossing);
       } else {
@@ -105,7 +115,8 @@ void trace_echoes(const World& world, std::span<const Crossing> crossings, const
     const bool denser_behind = wave.attenuation(medium) > wave.attenuation(before) || before == open_space;
     const std::size_t reflector = denser_behind && medium != open_space ? medium : before;
     const Crossing& crossing = crossings[reflector];
-    glm::dvec3 normal = crossing.enter == range && !crossing.starts_inside ? crossing.enter_normal : crossing.leave == range ? crossing.leave_normal : glm::dvec3(0.0);
+    const auto here = [range](double end) { return std::abs(end - range) <= same_place; };
+    glm::dvec3 normal = here(crossing.enter) && !crossing.starts_inside ? crossing.enter_normal : here(crossing.leave) ? crossing.leave_normal : glm::dvec3(0.0);
     if (normal == glm::dvec3(0.0)) {  // the reflector goes on: the surface is the other solid's
       const Crossing& other = crossings[surface->crossing];
       normal = surface->enters ? other.enter_normal : other.leave_normal;
@@ -126,7 +137,8 @@ void trace_echoes(const World& world, std::span<const Crossing> crossings, const
       break;
     }
     passed *= 1.0 - reflectivity;
-    if (passed * passed * std::pow(10.0, -0.2 * loss_db) < limits.floor_power) {
+    most_db = bearable_loss();
+    if (loss_db > most_db) {
       beam.end = BeamEnd::exhausted;
       beam.sensed_range = range;
       break;

@@ -1,0 +1,71 @@
+// Whole scans, and what they cost on top of the tracing.
+#include <tbb/global_control.h>
+
+#include "bench_worlds.hpp"
+
+namespace thicket::bench {
+namespace {
+
+constexpr const char* divided_room = "worlds/data/foliage_wall/divided_room.toml";
+
+/// Where the mission map_radar passes the middle of the foliage wall.
+const Pose vehicle = Pose::planar(-3.0, 0.3, 0.0, 0.4);
+
+void scans(benchmark::State& state, const Scene& scene, const SensorSpec& spec, std::size_t threads) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+  const auto sensor = make_sensor(spec, 0);
+  const Random random(1, 0);
+  Scan scan;
+  std::uint64_t number = 0;
+  for (auto _ : state) {
+    sensor->measure(scene, vehicle, 0.0, number++, random, scan);
+    benchmark::DoNotOptimize(scan.echoes.data());
+    benchmark::ClobberMemory();
+  }
+  per_item(state, "beam", static_cast<double>(scan.beams.size()));
+}
+
+/// The scene's part of the same scan.
+void tracing(benchmark::State& state, const Scene& scene, const ScanningRadarSpec& spec) {
+  const Pose sensor = vehicle * Pose::planar(spec.position_m.x, spec.position_m.y, spec.position_m.z, 0.0);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 360; ++i) {
+    const glm::dvec2 d = direction(radians(i - 180.0));
+    rays.push_back({sensor.position, sensor.orientation * glm::dvec3(d, 0.0), spec.range_max_m});
+  }
+  CrossingLists lists;
+  for (auto _ : state) {
+    scene.crossings(rays, spec.penetration_budget_db, lists);
+    benchmark::DoNotOptimize(lists.items.data());
+    benchmark::ClobberMemory();
+  }
+  per_item(state, "beam", static_cast<double>(rays.size()));
+}
+
+}  // namespace
+
+void register_radar() {
+  const Scene scene = shipped_scene(divided_room);
+  ScanningRadarSpec radar;
+  radar.position_m.z = 0.4;
+  ScanningRadarSpec side_rays = radar;
+  side_rays.divergence = "side_rays";
+  ScanningRadarSpec noisy = radar;
+  noisy.range_noise_m = 0.02;
+  LidarSpec lidar;
+  lidar.position_m.z = 0.4;
+  measure("radar/scan of 360/tracing alone", [=](benchmark::State& s) { tracing(s, scene, radar); });
+  measure("radar/scan of 360/radar", [=](benchmark::State& s) { scans(s, scene, radar, 1); });
+  measure("radar/scan of 360/radar, side rays", [=](benchmark::State& s) { scans(s, scene, side_rays, 1); });
+  measure("radar/scan of 360/radar, range noise", [=](benchmark::State& s) { scans(s, scene, noisy, 1); });
+  measure("radar/scan of 360/lidar", [=](benchmark::State& s) { scans(s, scene, lidar, 1); });
+  ScanningRadarSpec fine = radar;
+  fine.step_deg = 0.1;
+  // Wall time: that is what the second thread is for.
+  for (const std::size_t threads : {1, 2})
+    measure("radar/scan of 3600, wall time/" + std::to_string(threads) + (threads == 1 ? " thread" : " threads"),
+            [=](benchmark::State& s) { scans(s, scene, fine, threads); })
+        ->UseRealTime();
+}
+
+}  // namespace thicket::bench
