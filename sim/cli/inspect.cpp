@@ -31,8 +31,12 @@ std::string text_of(const Node& document, const char* key) {
   return text ? *text : "";
 }
 
-int check_world(const std::filesystem::path& file) {
-  auto world = read_world(file);
+int check_world(const std::filesystem::path& file, const std::vector<Override>& overrides, const std::string& map_image) {
+  for (const Override& change : overrides)
+    if (change.key != "world_image") return complain({fmt::format("{}: '{}' is a world, which has no key '{}' of a mission", change.origin, file.string(), change.key)});
+  MapOptions options;
+  options.image = map_image;
+  auto world = read_world(file, options);
   if (!world) return complain(world.error());
   const auto scene = Scene::build(std::move(*world));
   if (!scene) return complain(scene.error());
@@ -54,10 +58,10 @@ int check_mission(const std::filesystem::path& file, const std::vector<Override>
 
 }  // namespace
 
-int check_file(const std::string& name, const std::vector<Override>& overrides) {
+int check_file(const std::string& name, const std::vector<Override>& overrides, const std::string& map_image) {
   const auto file = find_input(name);
   if (file.empty()) return complain({fmt::format("there is no file '{}'; shipped ones are listed by `thicket worlds`", name)});
-  return is_mission(file) ? check_mission(file, overrides) : check_world(file);
+  return is_mission(file) ? check_mission(file, overrides) : check_world(file, overrides, map_image);
 }
 
 int list_worlds() {

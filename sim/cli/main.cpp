@@ -113,7 +113,7 @@ int dispatch(int argc, char** argv) {
   }
   if (check.parsed()) {
     const auto overrides = check_flags.overrides();
-    return overrides ? check_file(file, *overrides) : bad_input;
+    return overrides ? check_file(file, *overrides, check_flags.map_image) : bad_input;
   }
   if (worlds.parsed()) return list_worlds();
   return help_topic(topic);

@@ -23,7 +23,8 @@ struct RunArguments {
 };
 
 int run_mission(const RunArguments& arguments);
-int check_file(const std::string& file, const std::vector<Override>& overrides);
+/// `map_image` is what --map-image gave, which is also among the overrides of a mission.
+int check_file(const std::string& file, const std::vector<Override>& overrides, const std::string& map_image);
 int list_worlds();
 int help_topic(const std::string& topic);
 

@@ -223,13 +223,14 @@ TEST_CASE("matter as thick as the budget ends a ray or lets it pass, but never h
   for (int i = 0; i < 5000; ++i) {
     HandMadeWorld w;
     w.material("wall", 0.5, infinity);
-    const double db_per_m = dice.between(0.5, 50.0), budget = dice.between(1.0, 20.0), from = dice.between(1.0, 10.0);
+    const double db_per_m = dice.between(0.5, 50.0), budget = dice.between(1.0, 20.0), from = dice.chance(0.5) ? 0.001 : dice.between(0.1, 10.0);
     w.material("hedge", 0.05, db_per_m);
-    const double to = from + budget / db_per_m;
-    w.world.solids = {slab(from, to, 1, dice.between(-0.5, 0.5)), slab(80.0, 81.0, 0)};
+    // To a few last places.
+    const double to = (from + budget / db_per_m) * (1.0 + 0x1p-52 * dice.pick(5));
+    w.world.solids = {slab(from, to, 1), slab(80.0, 81.0, 0)};
     // Thinner matter across it cuts the sum of its losses into pieces, and so rounds it otherwise.
     w.material("haze", 0.0, 0.001);
-    for (std::uint32_t piece = dice.pick(4); piece > 0; --piece) {
+    for (std::uint32_t piece = dice.pick(12); piece > 0; --piece) {
       const double middle = dice.between(from, to), half = dice.between(0.0, 0.5 * std::min(middle - from, to - middle));
       w.world.solids.push_back(slab(middle - half, middle + half, 2));
     }

@@ -1,0 +1,161 @@
+// The program as a person or a script meets it.
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "outside_data.hpp"
+#include "temporary_folder.hpp"
+#include "thicket/base/files.hpp"
+#include "thicket/base/image.hpp"
+
+namespace thicket {
+namespace {
+
+struct Answer {
+  int code = -1;
+  std::string out, err;
+};
+
+/// Calls the program in a folder.
+Answer thicket(const TemporaryFolder& folder, const std::string& arguments) {
+  const std::string out = (folder.path() / "stdout").string(), err = (folder.path() / "stderr").string();
+  const std::string command = "cd '" + folder.path().string() + "' && '" THICKET_PROGRAM "' " + arguments + " >'" + out + "' 2>'" + err + "' </dev/null";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, *read_text_file(out), *read_text_file(err)};
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+nlohmann::json json_of(const std::filesystem::path& file) { return nlohmann::json::parse(*read_text_file(file)); }
+
+const std::vector<std::string> outputs = {"map.pgm", "map.png", "map.yaml", "mission.toml", "result.json", "timing.json", "trajectory.csv", "trajectory.tum"};
+
+}  // namespace
+
+TEST_CASE("a shipped mission runs from any folder and leaves all its files") {
+  const TemporaryFolder folder;
+  const Answer answer = thicket(folder, "run worlds/data/foliage_wall/bug2.toml --out out");
+  CHECK(answer.code == 0);
+  CHECK(has(answer.out, "reached"));
+  for (const std::string& name : outputs) CHECK_MESSAGE(std::filesystem::file_size(folder.path() / "out" / name) > 0, name);
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path() / "out"), {}) == static_cast<long>(outputs.size()));
+
+  const auto result = json_of(folder.path() / "out/result.json");
+  CHECK(result["verdict"] == "reached");
+  CHECK(result["seed"] == 1);
+  CHECK(result["rays"].get<long>() == 360 * result["scans"].get<long>());
+  CHECK(result["path_length_m"].get<double>() > result["straight_distance_m"].get<double>());
+  CHECK(result["minimum_clearance_m"].get<double>() > 0.85);
+  CHECK_FALSE(result.contains("wall_run_s"));
+  const auto timing = json_of(folder.path() / "out/timing.json");
+  for (const char* phase : {"trace", "map", "plan", "contact"}) CHECK(timing["phases_s"][phase].get<double>() > 0.0);
+  CHECK(timing["realtime_factor"].get<double>() > 1.0);
+  const auto picture = read_image(folder.path() / "out/map.png");
+  REQUIRE(picture);
+  CHECK(picture->width > 600);
+  CHECK(has(*read_text_file(folder.path() / "out/map.yaml"), "free_thresh: 0.196"));
+}
+
+TEST_CASE("the resolved mission gives the same result, and threads and folders do not matter") {
+  const TemporaryFolder folder;
+  REQUIRE(thicket(folder, "run foliage_wall/closed --out a --threads 1 --set sensor.range_noise_m=0.02 --seed 5").code == 3);
+  REQUIRE(thicket(folder, "run a/mission.toml --out deep/b --threads 2").code == 3);
+  for (const std::string& name : outputs)
+    if (name != "timing.json") CHECK_MESSAGE(*read_text_file(folder.path() / "a" / name) == *read_text_file(folder.path() / "deep/b" / name), name);
+}
+
+TEST_CASE("exit codes and messages") {
+  const TemporaryFolder folder;
+  folder.write("stealth.toml", R"(name = "s"
+[material.stealth]
+reflectivity = 0.0
+[[solid]]
+type = "box"
+material = "stealth"
+position_m = [5.0, 0.0, 0.5]
+size_m = [0.2, 3.0, 1.0]
+)");
+  const Answer collided = thicket(folder, "run --world stealth.toml --start 0,0,0 --goal 9,0 --planner bug2 --out o");
+  CHECK(collided.code == 5);
+  CHECK(has(collided.err, "warning: 1 solid ('box 1') of material 'stealth' stop motion but would not be detected"));
+  CHECK(thicket(folder, "run foliage_wall/bug2 --set limits.time_s=2 --out o --quiet").code == 4);
+  CHECK(json_of(folder.path() / "o/result.json")["reason"] == "time limit of 2 s");
+
+  for (const auto& [arguments, words] : {std::pair{"run nowhere", "there is no mission 'nowhere'"}, {"run", "nothing to run"}, {"run foliage_wall/bug2 --goal 1", "--goal is '1', expected X,Y"},
+                                         {"run foliage_wall/bug2 --set clearance", "expected KEY=VALUE"}, {"run foliage_wall/bug2 --set planner.clearence_m=2", "did you mean 'clearance_m'"},
+                                         {"run foliage_wall/bug2 --planner bug9", "expected one of 'bug1', 'bug2', 'waypoints'"}, {"run foliage_wall/bug2 --no-such-flag", "--no-such-flag"},
+                                         {"check nowhere.toml", "there is no file"}, {"help nothing", "expected mission or world"}, {"frobnicate", ""}, {"", ""}}) {
+    CAPTURE(arguments);
+    const Answer answer = thicket(folder, arguments);
+    CHECK(answer.code == 2);
+    CHECK(has(answer.err, words));
+  }
+}
+
+TEST_CASE("--json prints the result alone, --quiet nothing") {
+  const TemporaryFolder folder;
+  const Answer json = thicket(folder, "run foliage_wall/smoke --out o --json");
+  CHECK(nlohmann::json::parse(json.out)["verdict"] == "reached");
+  CHECK(json.out == *read_text_file(folder.path() / "o/result.json"));
+  const Answer quiet = thicket(folder, "run foliage_wall/smoke --out o --quiet");
+  CHECK(quiet.out.empty());
+  CHECK(quiet.err.empty());
+}
+
+TEST_CASE("worlds, check, help and --version tell what there is") {
+  const TemporaryFolder folder;
+  const Answer worlds = thicket(folder, "worlds");
+  CHECK(worlds.code == 0);
+  for (const char* name : {"foliage_wall/bug1.toml", "foliage_wall/map_lidar.toml", "foliage_wall/divided_room.toml", "rooms/spiral.toml"}) CHECK(has(worlds.out, name));
+  const Answer check = thicket(folder, "check foliage_wall/bug2");
+  CHECK(check.code == 0);
+  CHECK(has(check.out, "foliage"));
+  CHECK(has(check.out, "ok"));
+  CHECK(has(thicket(folder, "check foliage_wall/divided_room").out, "solids     8"));
+  CHECK(has(thicket(folder, "check foliage_wall/bug2 --goal 0,0").out, "it cannot be reached"));
+  folder.write("broken.toml", "name = \"x\"\n[[solid]]\ntype = \"bocks\"\n");
+  const Answer broken = thicket(folder, "check broken.toml");
+  CHECK(broken.code == 2);
+  CHECK(has(broken.err, "broken.toml:3:8: 'type' is 'bocks'"));
+  CHECK(has(thicket(folder, "help mission").out, "goal_tolerance_m"));
+  CHECK(has(thicket(folder, "help world").out, "attenuation_db_per_m"));
+  CHECK(has(thicket(folder, "--version").out, "0.1"));
+  CHECK(has(thicket(folder, "--help").out, "Exit codes"));
+}
+
+TEST_CASE("a map_server map is a world; a broken image reference says how to go on") {
+  const auto yaml = outside_data("ros_maps/nav2_depot.yaml");
+  if (!yaml) {
+    MESSAGE("skipped: no outside data");
+    return;
+  }
+  const TemporaryFolder folder;
+  const std::string run = "run --world '" + yaml->string() + "' --start -5,0,0 --goal 20,0 --planner bug2 --set vehicle.preset=small --set planner.clearance_m=0.1 --out o";
+  const Answer broken = thicket(folder, run);
+  CHECK(broken.code == 2);
+  CHECK(has(broken.err, "nav2_depot.yaml:1:8: image 'depot.pgm' does not exist; 'nav2_depot.pgm' is beside it"));
+  std::filesystem::path image = *yaml;
+  image.replace_extension(".pgm");
+  const std::string with_image = " --map-image '" + image.string() + "'";
+  CHECK(thicket(folder, run + with_image).code == 0);
+  CHECK(has(thicket(folder, "check '" + yaml->string() + "'" + with_image).out, "solids     1"));
+}
+
+TEST_CASE("pacing keeps to the wanted factor, and an interrupted run still leaves its files") {
+  const TemporaryFolder folder;
+  // 2 s at 10 x real time is at least 0.2 s of wall time. (No upper bound: the machine is shared.)
+  CHECK(thicket(folder, "run foliage_wall/bug2 --set limits.time_s=2 --realtime-factor 10 --out o --quiet").code == 4);
+  CHECK(json_of(folder.path() / "o/timing.json")["wall_run_s"].get<double>() >= 0.19);
+  const std::string command = "cd '" + folder.path().string() + "' && timeout -s INT 1 '" THICKET_PROGRAM "' run foliage_wall/bug2 --realtime-factor 1 --out p --quiet; true";
+  REQUIRE(std::system(command.c_str()) == 0);
+  const auto result = json_of(folder.path() / "p/result.json");
+  CHECK(result["verdict"] == "stopped");
+  CHECK(result["reason"] == "interrupted");
+}
+
+}  // namespace thicket
