@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "thicket/base/files.hpp"
 #include "thicket/base/text.hpp"
@@ -41,26 +42,35 @@ SectionOf<LidarSpec> lidar_section() { return scanner_section<LidarSpec>("lidar"
 
 std::string preset_folder() { return (shipped_root() / "radar" / "presets").string(); }
 
-/// Reads `preset` into a spec; the entry's own keys come on top of it.
-SensorSpec read_preset(const Node& preset, Faults& faults) {
+/// Presets may build on one another; deeper than this they do so without end.
+constexpr int deepest_preset = 8;
+
+SensorSpec read_sensor_at(const Node& entry, Faults& faults, int depth);
+
+/// Reads `preset` into a spec; the entry's own keys come on top of it. Nothing if there is no such preset.
+std::optional<SensorSpec> read_preset(const Node& preset, Faults& faults, int depth) {
   const auto* name = std::get_if<std::string>(&preset.content);
   if (!name) {
     faults.add(preset.place, fmt::format("'preset' is {}, expected a text in quotes", preset.kind_in_words()));
-    return ScanningRadarSpec{};
+    return std::nullopt;
+  }
+  if (depth > deepest_preset) {
+    faults.add(preset.place, fmt::format("'preset' is '{}', which builds on itself, expected another one", *name));
+    return std::nullopt;
   }
   std::filesystem::path file = std::filesystem::path(preset_folder()) / (*name + ".toml");
   if (!std::filesystem::exists(file)) file = *name;
   if (!std::filesystem::is_regular_file(file)) {
     const auto known = sensor_presets();
     faults.add(preset.place, fmt::format("there is no sensor preset '{}', expected one of '{}' or a file{}", *name, fmt::join(known, "', '"), did_you_mean(*name, known)));
-    return ScanningRadarSpec{};
+    return std::nullopt;
   }
   const auto document = read_document(file);
   if (!document) {
     faults.take(document.error());
-    return ScanningRadarSpec{};
+    return std::nullopt;
   }
-  return read_sensor(*document, faults);
+  return read_sensor_at(*document, faults, depth + 1);
 }
 
 }  // namespace
@@ -82,12 +92,16 @@ const Section& sensor_section(const SensorSpec& spec) {
   return std::holds_alternative<LidarSpec>(spec) ? lidar : radar;
 }
 
-SensorSpec read_sensor(const Node& entry, Faults& faults) {
+namespace {
+
+SensorSpec read_sensor_at(const Node& entry, Faults& faults, int depth) {
   SensorSpec spec = ScanningRadarSpec{};
   const Node* type = entry.find("type");
   const Node* preset = entry.find("preset");
   if (preset) {
-    spec = read_preset(*preset, faults);
+    auto read = read_preset(*preset, faults, depth);
+    if (!read) return spec;  // told already; which keys there are is not known
+    spec = std::move(*read);
   }
   if (type) {
     const auto* word = std::get_if<std::string>(&type->content);
@@ -110,6 +124,10 @@ SensorSpec read_sensor(const Node& entry, Faults& faults) {
     faults.add(entry.place, fmt::format("'range_min_m' is {}, expected less than range_max_m, {}", common.range_min_m, common.range_max_m));
   return spec;
 }
+
+}  // namespace
+
+SensorSpec read_sensor(const Node& entry, Faults& faults) { return read_sensor_at(entry, faults, 0); }
 
 std::vector<std::string> sensor_presets() {
   std::vector<std::string> names;

@@ -213,9 +213,10 @@ struct Gatherer final : Collector {
   }
   double meet(unsigned lane, const PartCrossing& crossing) override {
     met[lane].push_back(crossing);
-    // A part that is deep enough to use up the whole budget by itself ends the ray, whatever else lies on it.
+    // A part that is deep enough to use up the whole budget by itself ends the ray, whatever else lies on it. Deeper by more than rounding: whoever adds up
+    // the losses along the list must come to the same end, or he would go on where the list does not.
     const double end = std::max(0.0, crossing.interval.enter) + depths[crossing.solid];
-    if (end < crossing.interval.leave) stop[lane] = std::min(stop[lane], end);
+    if (end * (1.0 + 1e-12) < crossing.interval.leave) stop[lane] = std::min(stop[lane], end);
     return stop[lane];
   }
 };

@@ -1,0 +1,146 @@
+// Sensors as files describe them.
+#include "thicket/radar/sensor_spec.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "../temporary_folder.hpp"
+#include "thicket/base/files.hpp"
+#include "thicket/radar/sensor.hpp"
+
+using namespace thicket;
+
+namespace {
+
+struct Reading {
+  SensorSpec spec;
+  std::string faults;
+};
+Reading read(const std::string& text) {
+  const auto document = parse_document(text, "s.toml");
+  REQUIRE_MESSAGE(static_cast<bool>(document), (document ? "" : document.error().message));
+  Faults faults;
+  Reading reading{read_sensor(*document, faults), ""};
+  if (!faults.none()) reading.faults = faults.error().message;
+  return reading;
+}
+std::string faults_of(const std::string& text) { return read(text).faults; }
+std::size_t lines_in(const std::string& text) { return text.empty() ? 0 : 1 + static_cast<std::size_t>(std::ranges::count(text, '\n')); }
+
+}  // namespace
+
+TEST_CASE("the presets that are shipped load, each as its own type") {
+  CHECK(sensor_presets() == std::vector<std::string>{"urg04lx", "usarsim2012", "utm30lx"});
+  for (const std::string& name : sensor_presets()) {
+    CAPTURE(name);
+    const Reading reading = read("preset = \"" + name + "\"");
+    CHECK(reading.faults == "");
+    CHECK(std::string(sensor_type(reading.spec)) == (name == "usarsim2012" ? "scanning_radar" : "lidar"));
+    CHECK(make_sensor(reading.spec, 0) != nullptr);
+  }
+  const Reading urg = read("preset = \"urg04lx\"");
+  CHECK(scanner(urg.spec).fov_deg == 240.0);
+  CHECK(scanner(urg.spec).step_deg == 0.3515625);
+  CHECK(scanner(urg.spec).range_max_m == 4.0);
+  const Reading utm = read("preset = \"utm30lx\"");
+  CHECK(scanner(utm.spec).rate_hz == 40.0);
+  CHECK(scanner(utm.spec).range_max_m == 30.0);
+  const Reading radar = read("preset = \"usarsim2012\"");
+  CHECK(std::get<ScanningRadarSpec>(radar.spec).penetration_budget_db == 10.0);
+  CHECK(std::get<ScanningRadarSpec>(radar.spec).divergence == "none");
+}
+
+TEST_CASE("keys come on top of a preset, or of a type's defaults") {
+  const Reading reading = read("preset = \"usarsim2012\"\nname = \"front\"\nrange_max_m = 50\ndivergence = \"side_rays\"\nposition_m = [0.1, 0, 0.5]\n");
+  CHECK(reading.faults == "");
+  const auto& spec = std::get<ScanningRadarSpec>(reading.spec);
+  CHECK(spec.name == "front");
+  CHECK(spec.range_max_m == 50.0);
+  CHECK(spec.divergence == "side_rays");
+  CHECK(spec.position_m == glm::dvec3(0.1, 0.0, 0.5));
+  CHECK(spec.penetration_budget_db == 10.0);
+  CHECK(read("type = \"scanning_radar\"\npreset = \"usarsim2012\"").faults == "");
+
+  const Reading radar = read("type = \"scanning_radar\"\npenetration_budget_db = inf\n");
+  CHECK(radar.faults == "");
+  CHECK(std::get<ScanningRadarSpec>(radar.spec).penetration_budget_db == std::numeric_limits<double>::infinity());
+  CHECK(std::get<ScanningRadarSpec>(radar.spec).range_max_m == ScanningRadarSpec{}.range_max_m);
+  const Reading lidar = read("type = \"lidar\"\n");
+  CHECK(lidar.faults == "");
+  CHECK(std::holds_alternative<LidarSpec>(lidar.spec));
+}
+
+TEST_CASE("a preset may be a file of one's own") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("mine.toml", "type = \"lidar\"\nrange_max_m = 7.0\n");
+  const Reading reading = read("preset = \"" + file.string() + "\"\nname = \"mine\"\n");
+  CHECK(reading.faults == "");
+  CHECK(std::get<LidarSpec>(reading.spec).range_max_m == 7.0);
+
+  // Its faults are told with its own places.
+  const auto broken = folder.write("broken.toml", "type = \"lidar\"\nrange_max = 7.0\n");
+  CHECK(faults_of("preset = \"" + broken.string() + "\"") ==
+        broken.string() + ":2:1: unknown key 'range_max' in [[sensor]] of type \"lidar\" (did you mean 'range_max_m'?)");
+  // A preset that names itself is told, not followed for ever.
+  const auto loop = folder.path() / "loop.toml";
+  folder.write("loop.toml", "preset = \"" + loop.string() + "\"\n");
+  CHECK(faults_of("preset = \"" + loop.string() + "\"").find(loop.string() + ":1:10: ") == 0);
+}
+
+TEST_CASE("presets and types that are wrong, missing, or do not fit") {
+  CHECK(faults_of("preset = \"usarsim2021\"") ==
+        "s.toml:1:10: there is no sensor preset 'usarsim2021', expected one of 'urg04lx', 'usarsim2012', 'utm30lx' or a file (did you mean 'usarsim2012'?)");
+  CHECK(faults_of("preset = 5") == "s.toml:1:10: 'preset' is an integer, expected a text in quotes");
+  CHECK(faults_of("preset = \"utm30lx\"\ntype = \"scanning_radar\"") ==
+        "s.toml:2:8: 'type' is 'scanning_radar', but the preset is of type 'lidar': leave one of them out");
+  CHECK(faults_of("type = \"lidra\"") == "s.toml:1:8: 'type' is 'lidra', expected one of 'scanning_radar', 'lidar' (did you mean 'lidar'?)");
+  CHECK(faults_of("type = true") == "s.toml:1:8: 'type' is true or false, expected one of 'scanning_radar', 'lidar'");
+  CHECK(faults_of("name = \"x\"") ==
+        "s.toml:1:1: [[sensor]] lacks 'type' or 'preset', expected a type of 'scanning_radar', 'lidar', or a preset of 'urg04lx', 'usarsim2012', 'utm30lx'");
+}
+
+TEST_CASE("what is wrong with the name of a preset is told once, and not of the keys that it would have had") {
+  const std::string unknown = faults_of("preset = \"utm30\"\ntype = \"lidar\"\nrange_max_m = 5.0\n");
+  CAPTURE(unknown);
+  CHECK(unknown.find("s.toml:1:10: there is no sensor preset 'utm30'") == 0);
+  CHECK(lines_in(unknown) == 1);
+}
+
+TEST_CASE("bad values of a sensor, with their places") {
+  const std::string head = "type = \"scanning_radar\"\n";
+  CHECK(faults_of(head + "fov_deg = 400\n") == "s.toml:2:11: 'fov_deg' is 400, expected a number in deg, above 0 and at most 360");
+  CHECK(faults_of(head + "fov_deg = 0\n") == "s.toml:2:11: 'fov_deg' is 0, expected a number in deg, above 0 and at most 360");
+  CHECK(faults_of(head + "step_deg = 0\n") == "s.toml:2:12: 'step_deg' is 0, expected a number in deg, at least 0.001 and at most 180");
+  CHECK(faults_of(head + "rate_hz = nan\n") == "s.toml:2:11: 'rate_hz' is nan, expected a number in Hz, above 0 and at most 10000");
+  CHECK(faults_of(head + "range_max_m = inf\n").find("s.toml:2:15: 'range_max_m' is inf, expected a number in m, above 0 and at most 100000") == 0);
+  CHECK(faults_of(head + "range_noise_m = -0.1\n").find("s.toml:2:17: 'range_noise_m' is -0.1, expected") == 0);
+  CHECK(faults_of(head + "detection_floor_db = 10\n") == "s.toml:2:22: 'detection_floor_db' is 10, expected a number in dB, at least -300 and at most 0");
+  CHECK(faults_of(head + "penetration_budget_db = -1\n") == "s.toml:2:25: 'penetration_budget_db' is -1, expected a number in dB, at least 0");
+  CHECK(faults_of(head + "divergence = \"sides\"\n") == "s.toml:2:14: 'divergence' is 'sides', expected one of 'none', 'side_rays'");
+  CHECK(faults_of(head + "side_geometry = \"paralel\"\n") ==
+        "s.toml:2:17: 'side_geometry' is 'paralel', expected one of 'diverging', 'parallel' (did you mean 'parallel'?)");
+  CHECK(faults_of(head + "first_echo_only = 1\n") == "s.toml:2:19: 'first_echo_only' is an integer, expected true or false");
+  CHECK(faults_of(head + "position_m = [0, 0]\n").find("s.toml:2:14: 'position_m' has an array of length 2") == 0);
+  CHECK(faults_of(head + "range_min_m = 40\n").find("'range_min_m' is 40, expected less than range_max_m, 30") != std::string::npos);
+  CHECK(faults_of(head + "range_min_m = 30\n").find("'range_min_m' is 30, expected less than range_max_m, 30") != std::string::npos);
+  CHECK(faults_of("type = \"lidar\"\ndivergence = \"none\"\n") == "s.toml:2:1: unknown key 'divergence' in [[sensor]] of type \"lidar\"");
+  // All of them.
+  CHECK(lines_in(faults_of(head + "fov_deg = 400\nstep_deg = 0\nrang_max_m = 3\n")) == 3);
+}
+
+TEST_CASE("a sensor that is written out reads back the same") {
+  for (const SensorSpec& spec : {SensorSpec(ScanningRadarSpec{}), SensorSpec(LidarSpec{}), read("preset = \"urg04lx\"").spec}) {
+    const std::string text = write_section(sensor_section(spec), sensor_object(spec));
+    const Reading back = read("type = \"" + std::string(sensor_type(spec)) + "\"\n" + text);
+    CHECK(back.faults == "");
+    CHECK(back.spec.index() == spec.index());
+    CHECK(write_section(sensor_section(back.spec), sensor_object(back.spec)) == text);
+  }
+}
+
+TEST_CASE("defaults by type") {
+  CHECK(sensor_types() == std::vector<std::string>{"scanning_radar", "lidar"});
+  for (const std::string& type : sensor_types()) CHECK(std::string(sensor_type(default_sensor(type))) == type);
+}
