@@ -9,8 +9,8 @@ namespace {
 constexpr int most_strays = 10;
 }  // namespace
 
-Bug::Bug(const PlannerSpec& spec, const VehicleLimits& vehicle, const glm::dvec2& start)
-    : pilot_(spec, vehicle), start_(start), goal_(*spec.goal_m), first_hand_(spec.hand == "right" ? Hand::right : Hand::left), hand_(first_hand_) {}
+Bug::Bug(const PlannerSpec& spec, const VehicleLimits& vehicle)
+    : pilot_(spec, vehicle), goal_(*spec.goal_m), first_hand_(spec.hand == "right" ? Hand::right : Hand::left), hand_(first_hand_) {}
 
 Decision Bug::decide(const Senses& senses) {
   pilot_.look(senses);

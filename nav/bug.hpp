@@ -12,7 +12,7 @@ namespace thicket {
 
 class Bug : public Planner {
  public:
-  Bug(const PlannerSpec& spec, const VehicleLimits& vehicle, const glm::dvec2& start);
+  Bug(const PlannerSpec& spec, const VehicleLimits& vehicle);
 
   Decision decide(const Senses& senses) final;
   std::vector<Mark> marks() const override { return marks_; }
@@ -32,7 +32,6 @@ class Bug : public Planner {
   Pilot& pilot() { return pilot_; }
   const Pilot& pilot() const { return pilot_; }
   const BoundaryWalk& walk() const { return walk_; }
-  const glm::dvec2& start() const { return start_; }
   const glm::dvec2& goal() const { return goal_; }
   double distance_to_goal() const { return pilot_.distance_to(goal_); }
   void mark(const char* label, const glm::dvec2& at);
@@ -41,7 +40,7 @@ class Bug : public Planner {
 
  private:
   Pilot pilot_;
-  glm::dvec2 start_, goal_;
+  glm::dvec2 goal_;
   Hand first_hand_;
   Hand hand_;
   bool on_boundary_ = false;

@@ -54,8 +54,8 @@ class Bug1 final : public Bug {
 
 }  // namespace
 
-std::unique_ptr<Planner> make_bug1(const PlannerSpec& spec, const VehicleLimits& vehicle, const glm::dvec2& start) {
-  return std::make_unique<Bug1>(spec, vehicle, start);
+std::unique_ptr<Planner> make_bug1(const PlannerSpec& spec, const VehicleLimits& vehicle) {
+  return std::make_unique<Bug1>(spec, vehicle);
 }
 
 }  // namespace thicket

@@ -12,7 +12,7 @@ namespace {
 
 class Bug2 final : public Bug {
  public:
-  Bug2(const PlannerSpec& spec, const VehicleLimits& vehicle, const glm::dvec2& start) : Bug(spec, vehicle, start) { mark_segment("M-line", start, goal()); }
+  Bug2(const PlannerSpec& spec, const VehicleLimits& vehicle, const glm::dvec2& start) : Bug(spec, vehicle) { mark_segment("M-line", start, goal()); }
   std::unique_ptr<Planner> clone() const override { return std::make_unique<Bug2>(*this); }
 
  private:
@@ -26,14 +26,17 @@ class Bug2 final : public Bug {
     return follow("following the boundary");
   }
 
-  /// Where the last step crossed the M-line: by a change of side, so that neither a step across nor a steep line is missed.
+  /// Where the last step crossed the M-line between the hit point and the goal (what lies before the hit point is farther from the goal than it and cannot count): by
+  /// a change of side, so that neither a step across nor a steep line is missed. Taken from the hit point, not from the start: a robot that leaves a boundary
+  /// swings off the line a little, and a boundary that it meets beside the line need not cross it again.
   std::optional<glm::dvec2> crosses_m_line() const {
-    const glm::dvec2 line = goal() - start();
-    const auto side = [&](const glm::dvec2& p) { return line.x * (p.y - start().y) - line.y * (p.x - start().x); };
+    const glm::dvec2& from = walk().hit();
+    const glm::dvec2 line = goal() - from;
+    const auto side = [&](const glm::dvec2& p) { return line.x * (p.y - from.y) - line.y * (p.x - from.x); };
     const double before = side(walk().previous()), after = side(walk().current());
     if ((before > 0.0) == (after > 0.0)) return std::nullopt;
     const glm::dvec2 at = glm::mix(walk().previous(), walk().current(), before / (before - after));
-    const double along = glm::dot(at - start(), line) / glm::dot(line, line);
+    const double along = glm::dot(at - from, line) / glm::dot(line, line);
     if (along <= 0.0 || along >= 1.0) return std::nullopt;
     return at;
   }

@@ -37,7 +37,7 @@ Result<std::unique_ptr<Planner>> make_planner(const PlannerSpec& spec, const Veh
   if (spec.name != "bug1" && spec.name != "bug2")
     return Error{fmt::format("there is no planner '{}', expected one of '{}'{}", spec.name, fmt::join(planner_names(), "', '"), did_you_mean(spec.name, planner_names()))};
   if (!spec.goal_m) return Error{fmt::format("the planner '{}' lacks a goal: give planner.goal_m or --goal X,Y", spec.name)};
-  return spec.name == "bug1" ? make_bug1(spec, vehicle, start.position) : make_bug2(spec, vehicle, start.position);
+  return spec.name == "bug1" ? make_bug1(spec, vehicle) : make_bug2(spec, vehicle, start.position);
 }
 
 double press_distance(const BumperSpec& bumpers, const PlannerSpec& planner, const VehicleLimits& vehicle) {

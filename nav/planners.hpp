@@ -5,7 +5,7 @@
 
 namespace thicket {
 
-std::unique_ptr<Planner> make_bug1(const PlannerSpec& spec, const VehicleLimits& vehicle, const glm::dvec2& start);
+std::unique_ptr<Planner> make_bug1(const PlannerSpec& spec, const VehicleLimits& vehicle);
 std::unique_ptr<Planner> make_bug2(const PlannerSpec& spec, const VehicleLimits& vehicle, const glm::dvec2& start);
 std::unique_ptr<Planner> make_waypoints(const PlannerSpec& spec, const VehicleLimits& vehicle);
 
