@@ -24,7 +24,8 @@ namespace thicket {
 struct HandMadeWorld {
   World world;
 
-  std::uint32_t material(std::string name, double reflectivity, double attenuation_db_per_m, bool stops_light = true, bool stops_motion = true) {
+  std::uint32_t material(std::string name, double reflectivity, double attenuation_db_per_m, bool stops_light = true,
+                         bool stops_motion = true) {
     world.materials.push_back({std::move(name), reflectivity, attenuation_db_per_m, 1.0, stops_light, stops_motion});
     return static_cast<std::uint32_t>(world.materials.size() - 1);
   }
@@ -42,7 +43,9 @@ inline Scene traced(World world) {
   REQUIRE_MESSAGE(static_cast<bool>(scene), (scene ? "" : scene.error().message));
   return std::move(*scene);
 }
-inline Scene traced(HandMadeWorld hand_made) { return traced(std::move(hand_made.world)); }
+inline Scene traced(HandMadeWorld hand_made) {
+  return traced(std::move(hand_made.world));
+}
 
 /// A map of one character a cell, the top row first: '#' occupied, '?' unknown, anything else free. Blocks are merged.
 inline MapSolid map_of(const std::vector<std::string>& rows, double resolution, double height = 2.5, bool unknown_is_matter = true) {

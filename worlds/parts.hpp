@@ -1,4 +1,4 @@
-// The convex parts that solids are traced as, each with its exact answer to a ray and to a hull. Private to the room.
+// The convex parts that solids are traced as, each with its exact answer to a hull; that to a ray is in part_rays.hpp. Private to the room.
 #pragma once
 
 #include <cstdint>
@@ -47,16 +47,6 @@ Parts make_parts(const World& world, const glm::dvec3& origin);
 Bounds part_bounds(const SpherePart& part);
 Bounds part_bounds(const CylinderPart& part);
 Bounds part_bounds(const BoxPart& part);
-
-/// False if the line misses the part or only touches it.
-bool cross(const SpherePart& part, const glm::dvec3& origin, const glm::dvec3& direction, PartInterval& interval);
-bool cross(const CylinderPart& part, const glm::dvec3& origin, const glm::dvec3& direction, PartInterval& interval);
-bool cross(const BoxPart& part, const glm::dvec3& origin, const glm::dvec3& direction, PartInterval& interval);
-
-/// Outward unit normal at a point of the surface.
-glm::dvec3 part_normal(const SpherePart& part, const glm::dvec3& point, int face);
-glm::dvec3 part_normal(const CylinderPart& part, const glm::dvec3& point, int face);
-glm::dvec3 part_normal(const BoxPart& part, const glm::dvec3& point, int face);
 
 /// Horizontal distance from a vertical axis at `position` to what the part has between two heights; negative inside it, +inf if it has nothing there.
 double axis_distance(const SpherePart& part, const glm::dvec2& position, double z_low, double z_high);

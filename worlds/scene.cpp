@@ -9,9 +9,10 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "embree.hpp"
-#include "parts.hpp"
+#include "part_rays.hpp"
 
 namespace thicket {
 namespace {
@@ -41,10 +42,7 @@ struct FiniteShape {
   bool operator()(const MapSolid& m) const { return std::isfinite(m.grid.resolution) && std::isfinite(m.height); }
 };
 
-bool traceable(const Ray& ray) {
-  if (!finite(ray.origin) || !finite(ray.direction)) return false;
-  return std::abs(glm::length(ray.direction) - 1.0) <= 1e-6 && ray.range_max >= 0.0;  // NaN fails
-}
+bool traceable(const Ray& ray) { return finite(ray.origin) && std::abs(glm::length(ray.direction) - 1.0) <= 1e-6 && ray.range_max >= 0.0; }  // NaN fails
 
 /// One ray of a packet, in double precision, relative to the scene's origin.
 struct LaneRay {
@@ -68,10 +66,18 @@ struct SceneParts {
   Parts parts;
 };
 
+/// What tracing needs to know of a solid, close together.
+struct Matter {
+  double attenuation_db_per_m = 0.0;   ///< +inf: opaque
+  std::array<bool, 3> stops{};  ///< by `Stops`
+};
+
 struct Scene::Impl : SceneParts {
   World world;
+  std::vector<Matter> matter;  ///< of every solid
   glm::dvec3 origin{0.0};
   Bounds box{glm::dvec3(0.0), glm::dvec3(0.0)};  ///< of all parts, padded, relative to the origin
+  double diagonal = 0.0;                         ///< of the box
   std::size_t parts_count = 0;
   std::atomic<std::ptrdiff_t> bytes{0};
   std::unique_ptr<RTCDeviceTy, DeviceDeleter> device;
@@ -106,21 +112,6 @@ struct Scene::Impl : SceneParts {
 
 namespace {
 
-/// What a traversal does with a part that a ray of the packet crosses. Returns the range behind which nothing more is wanted.
-struct Collector {
-  virtual double meet(unsigned lane, const PartCrossing& crossing) = 0;
-
- protected:
-  ~Collector() = default;
-};
-
-/// What the intersect callbacks need to know of a packet; Embree hands it through.
-struct Query : embree::Context {
-  const Parts* parts = nullptr;
-  const LaneRay* lanes = nullptr;
-  Collector* collector = nullptr;
-};
-
 template <class Part>
 const std::vector<Part>& parts_of(const Parts& parts) {
   if constexpr (std::is_same_v<Part, SpherePart>) return parts.spheres;
@@ -129,6 +120,100 @@ const std::vector<Part>& parts_of(const Parts& parts) {
 }
 template <class Part>
 constexpr std::uint32_t kind_of = std::is_same_v<Part, SpherePart> ? 0 : std::is_same_v<Part, CylinderPart> ? 1 : 2;
+
+/// One total order of what is met at the same range.
+bool before(const PartCrossing& a, const PartCrossing& b) {
+  if (a.solid != b.solid) return a.solid < b.solid;
+  if (a.kind != b.kind) return a.kind < b.kind;
+  return a.part < b.part;
+}
+
+/// For joining: the parts of a solid one after the other, by entrance.
+struct BySolid {
+  bool operator()(const PartCrossing& a, const PartCrossing& b) const {
+    if (a.solid != b.solid) return a.solid < b.solid;
+    if (a.interval.enter != b.interval.enter) return a.interval.enter < b.interval.enter;
+    return before(a, b);
+  }
+};
+/// As crossings are listed.
+struct ByRange {
+  bool operator()(const PartCrossing& a, const PartCrossing& b) const {
+    const double enter_a = std::max(0.0, a.interval.enter), enter_b = std::max(0.0, b.interval.enter);
+    if (enter_a != enter_b) return enter_a < enter_b;
+    if (a.interval.leave != b.interval.leave) return a.interval.leave < b.interval.leave;
+    return a.solid < b.solid;
+  }
+};
+/// Whether every part is of another solid. (Many parts are not looked through: false.)
+bool solids_differ(const std::vector<PartCrossing>& met) {
+  if (met.size() > 16) return false;
+  for (std::size_t i = 1; i < met.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (met[i].solid == met[j].solid) return false;
+  return true;
+}
+
+/// The nearest part that blocks.
+struct Nearest {
+  const std::vector<Matter>& matter;
+  Stops stops;
+  std::array<PartCrossing, packet> best{};
+  std::array<double, packet> range{};
+
+  void reset() { range.fill(infinity); }
+  /// Takes in a part that a ray of the packet crosses. Returns the range behind which nothing more is wanted.
+  double meet(unsigned lane, const PartCrossing& crossing) {
+    if (!matter[crossing.solid].stops[static_cast<std::size_t>(stops)] || crossing.interval.leave == 0.0) return infinity;
+    const double at = std::max(0.0, crossing.interval.enter);
+    if (at < range[lane] || (at == range[lane] && before(crossing, best[lane]))) {
+      range[lane] = at;
+      best[lane] = crossing;
+    }
+    return range[lane];
+  }
+};
+
+/// All parts as far as the budget reaches.
+struct Gatherer {
+  const std::vector<Matter>& matter;
+  double budget_db;
+  bool through_opaque;
+  std::array<std::vector<PartCrossing>, packet> met{};
+  std::array<double, packet> stop{};
+
+  void reset() {
+    for (auto& list : met) list.clear();
+    stop.fill(infinity);
+  }
+  /// How far a ray gets inside a solid.
+  double depth(std::uint32_t solid) const {
+    const double attenuation = matter[solid].attenuation_db_per_m;
+    if (through_opaque || !(attenuation > 0.0)) return infinity;
+    return attenuation == infinity ? 0.0 : budget_db / attenuation;
+  }
+  /// As above.
+  double meet(unsigned lane, const PartCrossing& crossing) {
+    met[lane].push_back(crossing);
+    // A part that is deep enough to use up the whole budget by itself ends the ray, whatever else lies on it. Deeper by more than rounding: whoever adds up
+    // the losses along the list must come to the same end, or he would go on where the list does not.
+    const double end = std::max(0.0, crossing.interval.enter) + depth(crossing.solid);
+    if (end * (1.0 + 1e-12) < crossing.interval.leave) stop[lane] = std::min(stop[lane], end);
+    return stop[lane];
+  }
+};
+
+/// What the intersect callbacks need to know of a packet; Embree hands it through. One of the two collectors is there.
+struct Query : embree::Context {
+  const Parts* parts = nullptr;
+  const LaneRay* lanes = nullptr;
+  Nearest* nearest = nullptr;
+  Gatherer* gatherer = nullptr;
+
+  void collect_in(Nearest& collector) { nearest = &collector; }
+  void collect_in(Gatherer& collector) { gatherer = &collector; }
+  double meet(unsigned lane, const PartCrossing& crossing) { return nearest ? nearest->meet(lane, crossing) : gatherer->meet(lane, crossing); }
+};
 
 template <class Part>
 void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
@@ -142,7 +227,7 @@ void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
 /// ray is drawn in, so that Embree skips what lies behind.
 template <class Part>
 void intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
-  const auto& query = *static_cast<const Query*>(arguments->context);
+  auto& query = *static_cast<Query*>(arguments->context);
   RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
   const Part& part = parts_of<Part>(*query.parts)[arguments->primID];
   for (unsigned i = 0; i < arguments->N; ++i) {
@@ -156,70 +241,13 @@ void intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
     crossing.solid = part.solid;
     crossing.kind = kind_of<Part>;
     crossing.part = arguments->primID;
-    const double limit = query.collector->meet(lane_index, crossing) - lane.shift;
+    const double limit = query.meet(lane_index, crossing) - lane.shift;
     float& far = RTCRayN_tfar(rays, arguments->N, i);
     // Rounded up, so that what lies at the same range is still met and ties are settled by order and not by chance.
     const double padded = std::max(0.0, limit + std::abs(limit) * single_precision_slack + 1e-30);
     if (padded < static_cast<double>(far)) far = static_cast<float>(padded);
   }
 }
-
-double depth_of(const Material& material, double budget_db) {
-  if (material.opaque()) return 0.0;
-  return material.attenuation_db_per_m > 0.0 ? budget_db / material.attenuation_db_per_m : infinity;
-}
-
-/// One total order of what is met at the same range.
-bool before(const PartCrossing& a, const PartCrossing& b) {
-  if (a.solid != b.solid) return a.solid < b.solid;
-  if (a.kind != b.kind) return a.kind < b.kind;
-  return a.part < b.part;
-}
-
-/// The nearest part that blocks.
-struct Nearest final : Collector {
-  const World& world;
-  Stops stops;
-  std::array<PartCrossing, packet> best{};
-  std::array<double, packet> range{};
-
-  Nearest(const World& w, Stops s) : world(w), stops(s) { reset(); }
-  void reset() { range.fill(infinity); }
-  bool blocks(std::uint32_t solid) const {
-    const Material& material = world.material_of(solid);
-    return stops == Stops::everything || (stops == Stops::light ? material.stops_light : material.stops_motion);
-  }
-  double meet(unsigned lane, const PartCrossing& crossing) override {
-    if (!blocks(crossing.solid) || crossing.interval.leave == 0.0) return infinity;
-    const double at = std::max(0.0, crossing.interval.enter);
-    if (at < range[lane] || (at == range[lane] && before(crossing, best[lane]))) {
-      range[lane] = at;
-      best[lane] = crossing;
-    }
-    return range[lane];
-  }
-};
-
-/// All parts as far as the budget reaches.
-struct Gatherer final : Collector {
-  const std::vector<double>& depths;  ///< per solid, how far a ray gets inside it
-  std::array<std::vector<PartCrossing>, packet> met;
-  std::array<double, packet> stop{};
-
-  explicit Gatherer(const std::vector<double>& d) : depths(d) { reset(); }
-  void reset() {
-    for (auto& list : met) list.clear();
-    stop.fill(infinity);
-  }
-  double meet(unsigned lane, const PartCrossing& crossing) override {
-    met[lane].push_back(crossing);
-    // A part that is deep enough to use up the whole budget by itself ends the ray, whatever else lies on it. Deeper by more than rounding: whoever adds up
-    // the losses along the list must come to the same end, or he would go on where the list does not.
-    const double end = std::max(0.0, crossing.interval.enter) + depths[crossing.solid];
-    if (end * (1.0 + 1e-12) < crossing.interval.leave) stop[lane] = std::min(stop[lane], end);
-    return stop[lane];
-  }
-};
 
 }  // namespace
 
@@ -238,6 +266,11 @@ void Scene::Impl::add_geometry(const std::vector<Part>& list) {
 }
 
 bool Scene::Impl::enter(LaneRay& lane, float& far) const {
+  if (glm::all(glm::lessThanEqual(box.low, lane.origin)) && glm::all(glm::lessThanEqual(lane.origin, box.high))) {
+    // Most rays start inside, and there is nothing behind the diagonal.
+    far = static_cast<float>(std::min(lane.range_max, diagonal) * (1.0 + single_precision_slack) + slack);
+    return true;
+  }
   double near = 0.0, end = lane.range_max;
   for (int axis = 0; axis < 3; ++axis) {
     const double o = lane.origin[axis], d = lane.direction[axis];
@@ -263,7 +296,7 @@ std::size_t Scene::Impl::trace(std::span<const Ray> rays, Collect& collector, Co
   embree::start(query);
   query.parts = &parts;
   query.lanes = lanes.data();
-  query.collector = &collector;
+  query.collect_in(collector);
   for (std::size_t first = 0; first < rays.size(); first += packet) {
     alignas(32) int valid[packet];
     alignas(32) RTCRayHit8 batch;
@@ -318,6 +351,11 @@ Result<Scene> Scene::build(World world) {
     if (!finite(impl->origin) || !finite(half)) return Error{"the world's extent is not finite"};
     impl->slack = single_precision_slack * std::max({half.x, half.y, half.z});
     impl->box = {-half - 2.0 * impl->slack, half + 2.0 * impl->slack};
+    impl->diagonal = glm::distance(impl->box.low, impl->box.high);
+  }
+  for (const Solid& solid : impl->world.solids) {
+    const Material& m = impl->world.materials[solid.material];
+    impl->matter.push_back({m.attenuation_db_per_m, {true, m.stops_light, m.stops_motion}});
   }
   impl->parts = make_parts(impl->world, impl->origin);
   impl->parts_count = impl->parts.spheres.size() + impl->parts.cylinders.size() + impl->parts.boxes.size();
@@ -348,7 +386,7 @@ std::size_t Scene::memory_bytes() const { return static_cast<std::size_t>(std::m
 std::size_t Scene::parts() const { return impl_->parts_count; }
 
 std::size_t Scene::closest_hits(std::span<const Ray> rays, Stops stops, std::span<Hit> hits) const {
-  Nearest nearest(impl_->world, stops);
+  Nearest nearest{impl_->matter, stops};
   return impl_->trace(rays, nearest, [&](std::size_t ray, unsigned lane, const LaneRay& lane_ray) {
     Hit& hit = hits[ray];
     hit = Hit{};
@@ -361,12 +399,9 @@ std::size_t Scene::closest_hits(std::span<const Ray> rays, Stops stops, std::spa
 }
 
 std::size_t Scene::crossings(std::span<const Ray> rays, double budget_db, CrossingLists& lists, bool through_opaque) const {
-  std::vector<double> depths;
-  for (const Solid& solid : impl_->world.solids)
-    depths.push_back(through_opaque ? infinity : depth_of(impl_->world.materials[solid.material], budget_db));
   lists.items.clear();
   lists.first.assign(1, 0);
-  Gatherer gatherer(depths);
+  Gatherer gatherer{impl_->matter, budget_db, through_opaque};
   return impl_->trace(rays, gatherer, [&](std::size_t, unsigned lane, const LaneRay& lane_ray) {
     impl_->join_parts(lane_ray, gatherer.met[lane], gatherer.stop[lane], lists.items);
     lists.first.push_back(static_cast<std::uint32_t>(lists.items.size()));
@@ -375,12 +410,11 @@ std::size_t Scene::crossings(std::span<const Ray> rays, double budget_db, Crossi
 
 void Scene::Impl::join_parts(const LaneRay& lane, std::vector<PartCrossing>& met, double stop, std::vector<Crossing>& out) const {
   // What starts behind the stop may or may not have been met, by the order of the traversal: it is left out, so that the list is the same for any order.
-  std::erase_if(met, [stop](const PartCrossing& c) { return c.interval.enter > stop; });
-  std::sort(met.begin(), met.end(), [](const PartCrossing& a, const PartCrossing& b) {
-    if (a.solid != b.solid) return a.solid < b.solid;
-    if (a.interval.enter != b.interval.enter) return a.interval.enter < b.interval.enter;
-    return before(a, b);
-  });
+  if (stop < infinity) std::erase_if(met, [stop](const PartCrossing& c) { return c.interval.enter > stop; });
+  // Where no solid was met twice, as is usual, every part is a crossing and the parts can be sorted as the crossings will be.
+  const bool one_part_each = solids_differ(met);
+  if (one_part_each) std::sort(met.begin(), met.end(), ByRange{});
+  else std::sort(met.begin(), met.end(), BySolid{});
   const std::size_t begin = out.size();
   for (std::size_t i = 0; i < met.size();) {
     const PartCrossing& first = met[i];
@@ -388,15 +422,15 @@ void Scene::Impl::join_parts(const LaneRay& lane, std::vector<PartCrossing>& met
     for (++i; i < met.size() && met[i].solid == first.solid && met[i].interval.enter <= last->interval.leave; ++i)
       if (met[i].interval.leave > last->interval.leave) last = &met[i];
     if (!(last->interval.leave > 0.0)) continue;
-    Crossing crossing;
+    Crossing& crossing = out.emplace_back();
     crossing.solid = first.solid;
     crossing.starts_inside = first.interval.enter < 0.0;
     crossing.enter = std::max(0.0, first.interval.enter);
     crossing.leave = last->interval.leave;
     if (!crossing.starts_inside) crossing.enter_normal = normal(lane, first, crossing.enter, first.interval.enter_face);
     crossing.leave_normal = normal(lane, *last, crossing.leave, last->interval.leave_face);
-    out.push_back(crossing);
   }
+  if (one_part_each) return;
   std::sort(out.begin() + static_cast<std::ptrdiff_t>(begin), out.end(), [](const Crossing& a, const Crossing& b) {
     if (a.enter != b.enter) return a.enter < b.enter;
     if (a.leave != b.leave) return a.leave < b.leave;
@@ -440,7 +474,7 @@ Clearance Scene::clearance(const Hull& hull, const glm::dvec3& position, double 
       [](RTCPointQueryFunctionArguments* arguments) {
         State& s = *static_cast<State*>(arguments->userPtr);
         return s.impl.with_part(arguments->geomID, arguments->primID, [&](const auto& part) {
-          if (!s.impl.world.material_of(part.solid).stops_motion) return false;
+          if (!s.impl.matter[part.solid].stops[static_cast<std::size_t>(Stops::motion)]) return false;
           const double distance = axis_distance(part, s.axis, s.z_low, s.z_high);
           const bool nearer = distance < s.best || (distance == s.best && part.solid < s.solid);
           if (!nearer) return false;

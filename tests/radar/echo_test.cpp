@@ -15,7 +15,9 @@ using namespace thicket;
 namespace {
 
 /// Power that is left of 1 after a loss in dB.
-double after(double db) { return std::pow(10.0, -0.1 * db); }
+double after(double db) {
+  return std::pow(10.0, -0.1 * db);
+}
 
 /// A slab across the x axis whose faces it meets at x = from and x = to, turned by yaw.
 Solid slab(double from, double to, std::uint32_t material, double yaw = 0.0) {
@@ -217,13 +219,15 @@ TEST_CASE("a ray is exhausted where its loss inside matter reaches the budget") 
 }
 
 TEST_CASE("matter as thick as the budget ends a ray or lets it pass, but never hides that there is a wall") {
-  // Rounding may settle it either way. What must not be is that the list of solids ends at the one and the ray goes on as if nothing were behind it.
+  // Rounding may settle it either way. What must not be is that the list of solids ends at the one and the ray goes on as if nothing were
+  // behind it.
   Dice dice(31);
   int exhausted = 0;
   for (int i = 0; i < 2500; ++i) {
     HandMadeWorld w;
     w.material("wall", 0.5, infinity);
-    const double db_per_m = dice.between(0.5, 50.0), budget = dice.between(1.0, 20.0), from = dice.chance(0.5) ? 0.001 : dice.between(0.1, 10.0);
+    const double db_per_m = dice.between(0.5, 50.0), budget = dice.between(1.0, 20.0),
+                 from = dice.chance(0.5) ? 0.001 : dice.between(0.1, 10.0);
     w.material("hedge", 0.05, db_per_m);
     // To a few last places.
     const double to = (from + budget / db_per_m) * (1.0 + 0x1p-52 * dice.pick(5));
@@ -269,7 +273,8 @@ TEST_CASE("where solids of one material overlap or touch there is no surface") {
     for (int i = 0; i < 500; ++i) {
       HandMadeWorld hedge;
       hedge.material("foliage", rho, 7.5);
-      const double yaw = dice.between(-1.0, 1.0), first = dice.between(0.1, 2.0), second = dice.between(0.1, 2.0), x = dice.between(5.0, 50.0);
+      const double yaw = dice.between(-1.0, 1.0), first = dice.between(0.1, 2.0), second = dice.between(0.1, 2.0),
+                   x = dice.between(5.0, 50.0);
       const glm::dvec3 along(direction(yaw), 0.0);
       hedge.add(Box{{first, 10.0, 10.0}}, glm::dvec3(x, 0.0, 0.0), yaw);
       hedge.add(Box{{second, 10.0, 10.0}}, glm::dvec3(x, 0.0, 0.0) + 0.5 * (first + second) * along, yaw);
@@ -286,7 +291,8 @@ TEST_CASE("where solids of one material overlap or touch there is no surface") {
       SlabWorld two;
       const double x = dice.between(5.0, 50.0), middle = x + dice.between(0.1, 0.3), end = middle + dice.between(0.1, 0.3);
       const bool wood_first = dice.chance(0.5);
-      two.put(x, middle, wood_first ? SlabWorld::wood : SlabWorld::foliage).put(middle, end, wood_first ? SlabWorld::foliage : SlabWorld::wood);
+      two.put(x, middle, wood_first ? SlabWorld::wood : SlabWorld::foliage)
+          .put(middle, end, wood_first ? SlabWorld::foliage : SlabWorld::wood);
       const OneBeam b = looked(one_beam_radar(), traced(two));
       REQUIRE(edges_of(b) == Edges{Edge::front, Edge::inner, Edge::back});
       const double before = wood_first ? 46.0 * (middle - x) : 7.5 * (middle - x), passed_front = wood_first ? 0.9 : 0.95;
@@ -511,9 +517,10 @@ struct ExpectedBeam {
   double sensed_range = 0.0;
 };
 
-/// The law once more, from the middle of each stretch between two surfaces: there the densest solid counts. For worlds without two surfaces in one place and
-/// without two materials of one attenuation.
-ExpectedBeam expected_beam(const World& world, const std::vector<Crossing>& crossings, const glm::dvec3& along, const ScanningRadarSpec& spec) {
+/// The law once more, from the middle of each stretch between two surfaces: there the densest solid counts. For worlds without two surfaces
+/// in one place and without two materials of one attenuation.
+ExpectedBeam expected_beam(const World& world, const std::vector<Crossing>& crossings, const glm::dvec3& along,
+                           const ScanningRadarSpec& spec) {
   struct Surface {
     double range;
     glm::dvec3 normal;
@@ -528,7 +535,8 @@ ExpectedBeam expected_beam(const World& world, const std::vector<Crossing>& cros
   const auto medium = [&](double range) {
     const Material* densest = &open;
     for (const Crossing& c : crossings)
-      if (c.enter < range && range < c.leave && (densest == &open || world.material_of(c.solid).attenuation_db_per_m > densest->attenuation_db_per_m))
+      if (c.enter < range && range < c.leave &&
+          (densest == &open || world.material_of(c.solid).attenuation_db_per_m > densest->attenuation_db_per_m))
         densest = &world.material_of(c.solid);
     return densest;
   };
@@ -586,9 +594,14 @@ HandMadeWorld thicket_of(Dice& dice, int solids) {
     const glm::dvec3 position(dice.point(glm::dvec2(-10.0), glm::dvec2(10.0)), dice.between(-0.5, 0.5));
     const auto material = i % 10 == 0 ? 0 : 1 + dice.pick(6);
     switch (dice.pick(3)) {
-      case 0: w.add(Sphere{dice.between(0.1, 2.0)}, position, 0.0, material); break;
-      case 1: w.add(Box{dice.point(glm::dvec3(0.1), glm::dvec3(3.0))}, position, dice.between(-pi, pi), material); break;
-      default: w.add(Cylinder{dice.between(0.05, 1.5), dice.between(0.2, 3.0)}, position, 0.0, material);
+      case 0:
+        w.add(Sphere{dice.between(0.1, 2.0)}, position, 0.0, material);
+        break;
+      case 1:
+        w.add(Box{dice.point(glm::dvec3(0.1), glm::dvec3(3.0))}, position, dice.between(-pi, pi), material);
+        break;
+      default:
+        w.add(Cylinder{dice.between(0.05, 1.5), dice.between(0.2, 3.0)}, position, 0.0, material);
     }
   }
   return w;
@@ -617,7 +630,8 @@ TEST_CASE("random thickets return what the law says, echo by echo") {
       const ExpectedBeam expected = expected_beam(w.world, brute::crossings(pieces, Ray{vehicle.position, along}), along, spec);
       const auto echoes = scan.echoes_of(beam);
       ++ends[static_cast<std::size_t>(expected.end)];
-      if (beam.end != expected.end || std::abs(beam.sensed_range - expected.sensed_range) > 1e-9 || echoes.size() != expected.echoes.size()) {
+      if (beam.end != expected.end || std::abs(beam.sensed_range - expected.sensed_range) > 1e-9 ||
+          echoes.size() != expected.echoes.size()) {
         ++wrong;
         continue;
       }
@@ -637,7 +651,8 @@ TEST_CASE("no beam returns more than was sent, its echoes are in order and in ra
   CHECK(rc::check("energy", [] {
     Dice dice(*rc::gen::arbitrary<std::uint64_t>());
     HandMadeWorld w;
-    for (int i = 0; i < 8; ++i) w.material("stuff", dice.between(0.0, 1.0), dice.chance(0.2) ? infinity : dice.chance(0.2) ? 0.0 : dice.between(0.0, 20.0));
+    for (int i = 0; i < 8; ++i)
+      w.material("stuff", dice.between(0.0, 1.0), dice.chance(0.2) ? infinity : dice.chance(0.2) ? 0.0 : dice.between(0.0, 20.0));
     for (int i = *rc::gen::inRange(0, 60); i > 0; --i)
       w.add(Sphere{dice.between(0.1, 3.0)}, {dice.point(glm::dvec2(-8.0), glm::dvec2(8.0)), 0.0}, 0.0, dice.pick(8));
     ScanningRadarSpec spec;

@@ -24,7 +24,8 @@ inline ScanningRadarSpec one_beam_radar() {
   return spec;
 }
 
-inline Scan measured(const SensorSpec& spec, const Scene& scene, const Pose& vehicle = {}, std::uint64_t number = 0, std::uint64_t seed = 1) {
+inline Scan measured(const SensorSpec& spec, const Scene& scene, const Pose& vehicle = {}, std::uint64_t number = 0,
+                     std::uint64_t seed = 1) {
   Scan scan;
   make_sensor(spec, 0)->measure(scene, vehicle, 0.0, number, Random(seed, 0), scan);
   return scan;
@@ -35,7 +36,9 @@ struct OneBeam {
   Beam beam;
   std::vector<Echo> echoes;
 
-  double power(std::size_t echo) const { return static_cast<double>(echoes.at(echo).amplitude) * static_cast<double>(echoes.at(echo).amplitude); }
+  double power(std::size_t echo) const {
+    return static_cast<double>(echoes.at(echo).amplitude) * static_cast<double>(echoes.at(echo).amplitude);
+  }
   double power_sum() const {
     double sum = 0.0;
     for (std::size_t i = 0; i < echoes.size(); ++i) sum += power(i);
@@ -51,6 +54,8 @@ inline OneBeam looked(const SensorSpec& spec, const Scene& scene, const Pose& ve
 
 /// Amplitudes are single precision: half a unit in their last place, twice for the square.
 constexpr double single_precision = 0x1p-22;
-inline doctest::Approx as_power(double power) { return doctest::Approx(power).epsilon(single_precision).scale(0.0); }
+inline doctest::Approx as_power(double power) {
+  return doctest::Approx(power).epsilon(single_precision).scale(0.0);
+}
 
 }  // namespace thicket

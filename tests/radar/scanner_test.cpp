@@ -18,23 +18,31 @@ namespace {
 /// A ring of foliage balls with walls behind, so that a scan has beams of every kind.
 World clearing() {
   HandMadeWorld w;
-  const auto wall = w.material("wall", 0.5, infinity), foliage = w.material("foliage", 0.05, 7.5), smoke = w.material("smoke", 1e-7, 0.05, true, false);
+  const auto wall = w.material("wall", 0.5, infinity), foliage = w.material("foliage", 0.05, 7.5),
+             smoke = w.material("smoke", 1e-7, 0.05, true, false);
   Dice dice(41);
-  for (int i = 0; i < 40; ++i) w.add(Sphere{dice.between(0.3, 1.5)}, {dice.between(4.0, 8.0) * direction(dice.between(-pi, pi)), 0.3}, 0.0, foliage);
+  for (int i = 0; i < 40; ++i)
+    w.add(Sphere{dice.between(0.3, 1.5)}, {dice.between(4.0, 8.0) * direction(dice.between(-pi, pi)), 0.3}, 0.0, foliage);
   for (int i = 0; i < 5; ++i) w.add(Sphere{2.0}, {dice.between(3.0, 8.0) * direction(dice.between(-pi, pi)), 0.3}, 0.0, smoke);
   w.add(Wall{{{-10.0, -10.0}, {10.0, -10.0}, {10.0, 10.0}}, 0.2, 2.5}, {0.0, 0.0, 0.0}, 0.0, wall);
   return w.world;
 }
 
-bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
-bool same_bits(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+bool same_bits(float a, float b) {
+  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+}
 bool same_bits(const Scan& a, const Scan& b) {
   const auto same_beam = [](const Beam& p, const Beam& q) {
     return same_bits(p.azimuth, q.azimuth) && same_bits(p.elevation, q.elevation) && same_bits(p.sensed_range, q.sensed_range) &&
-           p.first_echo == q.first_echo && p.echo_count == q.echo_count && p.end == q.end && p.starts_inside == q.starts_inside && p.side == q.side;
+           p.first_echo == q.first_echo && p.echo_count == q.echo_count && p.end == q.end && p.starts_inside == q.starts_inside &&
+           p.side == q.side;
   };
   const auto same_echo = [](const Echo& p, const Echo& q) {
-    return same_bits(p.range, q.range) && same_bits(p.amplitude, q.amplitude) && same_bits(p.incidence_cosine, q.incidence_cosine) && p.edge == q.edge;
+    return same_bits(p.range, q.range) && same_bits(p.amplitude, q.amplitude) && same_bits(p.incidence_cosine, q.incidence_cosine) &&
+           p.edge == q.edge;
   };
   return a.sensor == b.sensor && a.number == b.number && same_bits(a.time, b.time) && a.rays == b.rays &&
          std::ranges::equal(a.beams, b.beams, same_beam) && std::ranges::equal(a.echoes, b.echoes, same_echo);
@@ -52,7 +60,8 @@ Spec flat_scan(double fov_deg, double step_deg, double range_max_m = 30.0) {
 
 std::vector<double> azimuths_in_degrees(double fov_deg, double step_deg) {
   std::vector<double> list;
-  for (const Beam& beam : measured(flat_scan<ScanningRadarSpec>(fov_deg, step_deg), traced(World{})).beams) list.push_back(degrees(beam.azimuth));
+  for (const Beam& beam : measured(flat_scan<ScanningRadarSpec>(fov_deg, step_deg), traced(World{})).beams)
+    list.push_back(degrees(beam.azimuth));
   return list;
 }
 bool are(const std::vector<double>& found, const std::vector<double>& expected) {
@@ -345,19 +354,21 @@ TEST_CASE("a scan does not depend on the number of threads") {
 TEST_CASE("beams do not depend on how many there are") {
   // A beam of a scan that is shared out among tasks is the beam of a scan that is not.
   const Scene scene = traced(clearing());
-  const Scan fine = measured(flat_scan<ScanningRadarSpec>(360.0, 0.125), scene), coarse = measured(flat_scan<ScanningRadarSpec>(360.0, 1.0), scene);
+  const Scan fine = measured(flat_scan<ScanningRadarSpec>(360.0, 0.125), scene),
+             coarse = measured(flat_scan<ScanningRadarSpec>(360.0, 1.0), scene);
   REQUIRE(fine.beams.size() == 2880);
   for (std::size_t i = 0; i < coarse.beams.size(); ++i) {
     const auto a = coarse.echoes_of(coarse.beams[i]), b = fine.echoes_of(fine.beams[8 * i]);
     REQUIRE(same_bits(coarse.beams[i].sensed_range, fine.beams[8 * i].sensed_range));
-    REQUIRE(std::ranges::equal(a, b, [](const Echo& p, const Echo& q) { return same_bits(p.range, q.range) && same_bits(p.amplitude, q.amplitude); }));
+    REQUIRE(std::ranges::equal(
+        a, b, [](const Echo& p, const Echo& q) { return same_bits(p.range, q.range) && same_bits(p.amplitude, q.amplitude); }));
   }
 }
 
 TEST_CASE("a lidar stops at the first surface that stops light") {
   HandMadeWorld w;
-  const auto wall = w.material("wall", 0.5, infinity), foliage = w.material("foliage", 0.05, 7.5), smoke = w.material("smoke", 1e-7, 0.05, true, false),
-             glass = w.material("glass", 0.1, 34.0, false, true);
+  const auto wall = w.material("wall", 0.5, infinity), foliage = w.material("foliage", 0.05, 7.5),
+             smoke = w.material("smoke", 1e-7, 0.05, true, false), glass = w.material("glass", 0.1, 34.0, false, true);
   const auto first_behind = [&](std::uint32_t material, double yaw = 0.0) {
     HandMadeWorld one;
     one.world.materials = w.world.materials;
@@ -398,8 +409,8 @@ TEST_CASE("a lidar sees nothing nearer than range_min and nothing beyond range_m
 }
 
 TEST_CASE("which matter a sensor detects at all") {
-  const Material wall{"wall", 0.5, infinity, 1.0, true, true}, smoke{"smoke", 1e-7, 0.05, 1.0, true, false}, glass{"glass", 0.1, 34.0, 1.0, false, true},
-      vacuum{"vacuum", 0.0, 0.0, 1.0, false, false};
+  const Material wall{"wall", 0.5, infinity, 1.0, true, true}, smoke{"smoke", 1e-7, 0.05, 1.0, true, false},
+      glass{"glass", 0.1, 34.0, 1.0, false, true}, vacuum{"vacuum", 0.0, 0.0, 1.0, false, false};
   ScanningRadarSpec radar;
   radar.detection_floor_db = -60.0;
   CHECK(make_sensor(radar, 0)->detects(wall));

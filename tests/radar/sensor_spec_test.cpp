@@ -26,8 +26,12 @@ Reading read(const std::string& text) {
   if (!faults.none()) reading.faults = faults.error().message;
   return reading;
 }
-std::string faults_of(const std::string& text) { return read(text).faults; }
-std::size_t lines_in(const std::string& text) { return text.empty() ? 0 : 1 + static_cast<std::size_t>(std::ranges::count(text, '\n')); }
+std::string faults_of(const std::string& text) {
+  return read(text).faults;
+}
+std::size_t lines_in(const std::string& text) {
+  return text.empty() ? 0 : 1 + static_cast<std::size_t>(std::ranges::count(text, '\n'));
+}
 
 }  // namespace
 
@@ -53,7 +57,8 @@ TEST_CASE("the presets that are shipped load, each as its own type") {
 }
 
 TEST_CASE("keys come on top of a preset, or of a type's defaults") {
-  const Reading reading = read("preset = \"usarsim2012\"\nname = \"front\"\nrange_max_m = 50\ndivergence = \"side_rays\"\nposition_m = [0.1, 0, 0.5]\n");
+  const Reading reading =
+      read("preset = \"usarsim2012\"\nname = \"front\"\nrange_max_m = 50\ndivergence = \"side_rays\"\nposition_m = [0.1, 0, 0.5]\n");
   CHECK(reading.faults == "");
   const auto& spec = std::get<ScanningRadarSpec>(reading.spec);
   CHECK(spec.name == "front");
@@ -91,14 +96,17 @@ TEST_CASE("a preset may be a file of one's own") {
 
 TEST_CASE("presets and types that are wrong, missing, or do not fit") {
   CHECK(faults_of("preset = \"usarsim2021\"") ==
-        "s.toml:1:10: there is no sensor preset 'usarsim2021', expected one of 'urg04lx', 'usarsim2012', 'utm30lx' or a file (did you mean 'usarsim2012'?)");
+        "s.toml:1:10: there is no sensor preset 'usarsim2021', expected one of 'urg04lx', 'usarsim2012', 'utm30lx' or a file (did you mean "
+        "'usarsim2012'?)");
   CHECK(faults_of("preset = 5") == "s.toml:1:10: 'preset' is an integer, expected a text in quotes");
   CHECK(faults_of("preset = \"utm30lx\"\ntype = \"scanning_radar\"") ==
         "s.toml:2:8: 'type' is 'scanning_radar', but the preset is of type 'lidar': leave one of them out");
-  CHECK(faults_of("type = \"lidra\"") == "s.toml:1:8: 'type' is 'lidra', expected one of 'scanning_radar', 'lidar' (did you mean 'lidar'?)");
+  CHECK(faults_of("type = \"lidra\"") ==
+        "s.toml:1:8: 'type' is 'lidra', expected one of 'scanning_radar', 'lidar' (did you mean 'lidar'?)");
   CHECK(faults_of("type = true") == "s.toml:1:8: 'type' is true or false, expected one of 'scanning_radar', 'lidar'");
   CHECK(faults_of("name = \"x\"") ==
-        "s.toml:1:1: [[sensor]] lacks 'type' or 'preset', expected a type of 'scanning_radar', 'lidar', or a preset of 'urg04lx', 'usarsim2012', 'utm30lx'");
+        "s.toml:1:1: [[sensor]] lacks 'type' or 'preset', expected a type of 'scanning_radar', 'lidar', or a preset of 'urg04lx', "
+        "'usarsim2012', 'utm30lx'");
 }
 
 TEST_CASE("what is wrong with the name of a preset is told once, and not of the keys that it would have had") {
@@ -114,10 +122,13 @@ TEST_CASE("bad values of a sensor, with their places") {
   CHECK(faults_of(head + "fov_deg = 0\n") == "s.toml:2:11: 'fov_deg' is 0, expected a number in deg, above 0 and at most 360");
   CHECK(faults_of(head + "step_deg = 0\n") == "s.toml:2:12: 'step_deg' is 0, expected a number in deg, at least 0.001 and at most 180");
   CHECK(faults_of(head + "rate_hz = nan\n") == "s.toml:2:11: 'rate_hz' is nan, expected a number in Hz, above 0 and at most 10000");
-  CHECK(faults_of(head + "range_max_m = inf\n").find("s.toml:2:15: 'range_max_m' is inf, expected a number in m, above 0 and at most 100000") == 0);
+  CHECK(faults_of(head + "range_max_m = inf\n")
+            .find("s.toml:2:15: 'range_max_m' is inf, expected a number in m, above 0 and at most 100000") == 0);
   CHECK(faults_of(head + "range_noise_m = -0.1\n").find("s.toml:2:17: 'range_noise_m' is -0.1, expected") == 0);
-  CHECK(faults_of(head + "detection_floor_db = 10\n") == "s.toml:2:22: 'detection_floor_db' is 10, expected a number in dB, at least -300 and at most 0");
-  CHECK(faults_of(head + "penetration_budget_db = -1\n") == "s.toml:2:25: 'penetration_budget_db' is -1, expected a number in dB, at least 0");
+  CHECK(faults_of(head + "detection_floor_db = 10\n") ==
+        "s.toml:2:22: 'detection_floor_db' is 10, expected a number in dB, at least -300 and at most 0");
+  CHECK(faults_of(head + "penetration_budget_db = -1\n") ==
+        "s.toml:2:25: 'penetration_budget_db' is -1, expected a number in dB, at least 0");
   CHECK(faults_of(head + "divergence = \"sides\"\n") == "s.toml:2:14: 'divergence' is 'sides', expected one of 'none', 'side_rays'");
   CHECK(faults_of(head + "side_geometry = \"paralel\"\n") ==
         "s.toml:2:17: 'side_geometry' is 'paralel', expected one of 'diverging', 'parallel' (did you mean 'parallel'?)");

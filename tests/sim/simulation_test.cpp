@@ -174,7 +174,7 @@ TEST_CASE("matter above or below the sensor's plane is warned of") {
   CHECK(mission_warnings(*tall).empty());
 }
 
-TEST_CASE("a start in contact is a collision at once; a way-point behind a wall ends with what blocks it; limits have their own verdict") {
+TEST_CASE("a start in contact is a collision at once, a way-point behind a wall ends with what blocks it, limits have their own verdict") {
   Material wall;
   wall.name = "wall";
   auto touching = Simulation::create(straight_to(2.0), world_with(wall, Box{{1.0, 1.0, 2.0}}, {0.5, 0.0, 1.0}));

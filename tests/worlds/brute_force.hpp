@@ -1,5 +1,5 @@
-// What rays and hulls meet, found the slow way by formulas of this file alone: every solid is asked, in extended precision, and nothing of the
-// room's own tracing is used.
+// What rays and hulls meet, found the slow way by formulas of this file alone: every solid is asked, in extended precision, and nothing of
+// the room's own tracing is used.
 #pragma once
 
 #include <algorithm>
@@ -25,11 +25,13 @@ using Vec3 = glm::vec<3, Real>;
 struct Piece {
   enum class Kind { ball, pillar, block } kind;
   Vec3 centre;
-  Vec3 half;      ///< half sizes; of a ball and a pillar x is the radius
+  Vec3 half;        ///< half sizes; of a ball and a pillar x is the radius
   Vec2 axis{1, 0};  ///< of a block: where its own x points
 };
 
-inline Vec2 turned(const Vec2& v, Real yaw) { return {std::cos(yaw) * v.x - std::sin(yaw) * v.y, std::sin(yaw) * v.x + std::cos(yaw) * v.y}; }
+inline Vec2 turned(const Vec2& v, Real yaw) {
+  return {std::cos(yaw) * v.x - std::sin(yaw) * v.y, std::sin(yaw) * v.x + std::cos(yaw) * v.y};
+}
 
 struct PiecesOf {
   Vec3 position;
@@ -100,7 +102,8 @@ struct Stretch {
   }
 };
 
-/// |start + t way| <= radius, in two or three dimensions: the quadratic formula of any textbook, from the point of the line that is nearest to the middle.
+/// |start + t way| <= radius, in two or three dimensions: the quadratic formula of any textbook, from the point of the line that is nearest
+/// to the middle.
 template <class V>
 bool round_stretch(const V& start, const V& way, Real radius, Real& enter, Real& leave) {
   const Real a = glm::dot(way, way);
@@ -153,8 +156,8 @@ inline Stretch stretch(const Piece& piece, const Vec3& origin, const Vec3& direc
   return s;
 }
 
-/// All crossings of a ray with a world as `Scene::crossings` promises them: parts of one solid that touch are one, what ends behind the ray or begins
-/// beyond its range is left out, and sorted by (enter, leave, solid).
+/// All crossings of a ray with a world as `Scene::crossings` promises them: parts of one solid that touch are one, what ends behind the ray
+/// or begins beyond its range is left out, and sorted by (enter, leave, solid).
 inline std::vector<Crossing> crossings(const std::vector<std::vector<Piece>>& solids, const Ray& ray) {
   constexpr Real touching = 1e-12L;
   std::vector<Crossing> all;
@@ -239,8 +242,8 @@ inline Real distance(const Plan& plan, const Vec2& point) {
   return glm::distance(p, glm::clamp(p, -plan.half, plan.half));
 }
 
-/// Least s >= 0 at which the point start + s direction is nearer to a plan than `grow`; +inf if it never is. In closed form: a grown rectangle is two
-/// rectangles and four discs.
+/// Least s >= 0 at which the point start + s direction is nearer to a plan than `grow`; +inf if it never is. In closed form: a grown
+/// rectangle is two rectangles and four discs.
 inline Real first_nearer(const Plan& plan, const Vec2& start, const Vec2& direction, Real grow) {
   Real first = std::numeric_limits<Real>::infinity();
   const auto disc = [&](const Vec2& centre, Real radius) {

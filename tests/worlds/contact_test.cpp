@@ -28,7 +28,8 @@ HandMadeWorld hall(Dice& dice) {
     w.add(Box{dice.point(glm::dvec3(0.05), glm::dvec3(4.0, 4.0, 2.0))}, place(), dice.between(-pi, pi), material());
     w.add(Cylinder{dice.between(0.02, 1.0), dice.between(0.2, 3.0)}, place(), 0.0, material());
     const glm::dvec2 a = dice.point(glm::dvec2(-30.0), glm::dvec2(30.0)), b = a + dice.between(1.0, 8.0) * direction(dice.between(-pi, pi));
-    w.add(Wall{{a, b, b + dice.between(1.0, 8.0) * direction(dice.between(-pi, pi))}, 0.001, 2.5}, {0.0, 0.0, dice.between(-2.0, 1.0)}, 0.0, material());
+    w.add(Wall{{a, b, b + dice.between(1.0, 8.0) * direction(dice.between(-pi, pi))}, 0.001, 2.5}, {0.0, 0.0, dice.between(-2.0, 1.0)}, 0.0,
+          material());
   }
   w.add(map_of({"##..#", "#...#", "..#..", "#####"}, 0.7, 1.5), {5.0, 5.0, 0.0}, 0.4, hard);
   return w;
@@ -41,7 +42,8 @@ double true_distance(const std::vector<brute::PlanOfSolid>& plans, const glm::dv
 }
 
 /// Where the axis of a hull that moves straight first comes nearer to matter than `grow`, as far as `length`.
-double first_nearer(const std::vector<brute::PlanOfSolid>& plans, const glm::dvec3& start, const glm::dvec2& along, double grow, double length) {
+double first_nearer(const std::vector<brute::PlanOfSolid>& plans, const glm::dvec3& start, const glm::dvec2& along, double grow,
+                    double length) {
   brute::Real first = infinity;
   for (const auto& p : plans) first = std::min(first, brute::first_nearer(p.plan, brute::Vec2(start), brute::Vec2(along), grow));
   return first <= length ? static_cast<double>(first) : infinity;
@@ -69,14 +71,16 @@ TEST_CASE("clearance of a hull from each shape, by hand") {
     return traced(w).clearance(hull, {0.0, 0.0, 0.0}, infinity).distance;
   };
   CHECK(clearance_of(Sphere{1.0}, {3.0, 4.0, 0.25}) == 3.75);
-  CHECK(clearance_of(Sphere{1.0}, {3.0, 4.0, 1.1}) == doctest::Approx(5.0 - 0.8 - 0.25).epsilon(1e-15));  // its circle 0.6 m under its middle
+  CHECK(clearance_of(Sphere{1.0}, {3.0, 4.0, 1.1}) ==
+        doctest::Approx(5.0 - 0.8 - 0.25).epsilon(1e-15));  // its circle 0.6 m under its middle
   CHECK(clearance_of(Sphere{1.0}, {3.0, 4.0, -0.6}) == doctest::Approx(5.0 - 0.8 - 0.25).epsilon(1e-15));
   CHECK(clearance_of(Cylinder{1.0, 2.0}, {3.0, 4.0, 0.0}) == 3.75);
   CHECK(clearance_of(Box{{2.0, 2.0, 2.0}}, {4.0, 0.5, 0.0}) == 2.75);
   CHECK(clearance_of(Box{{2.0, 2.0, 2.0}}, {4.0, 5.0, 0.0}) == doctest::Approx(5.0 - 0.25).epsilon(1e-15));
   CHECK(clearance_of(Box{{2.0, 2.0, 2.0}}, {4.0, 0.0, 0.0}, pi / 4) == doctest::Approx(4.0 - std::numbers::sqrt2 - 0.25).epsilon(1e-14));
   CHECK(clearance_of(Wall{{{-5.0, 0.0}, {5.0, 0.0}}, 0.5, 1.0}, {0.0, 3.0, 0.0}) == doctest::Approx(2.5).epsilon(1e-15));
-  CHECK(clearance_of(Wall{{{3.0, 4.0}, {30.0, 4.0}}, 2.0, 1.0}, {0.0, 0.0, 0.0}) == doctest::Approx(std::hypot(3.0, 3.0) - 0.25).epsilon(1e-14));
+  CHECK(clearance_of(Wall{{{3.0, 4.0}, {30.0, 4.0}}, 2.0, 1.0}, {0.0, 0.0, 0.0}) ==
+        doctest::Approx(std::hypot(3.0, 3.0) - 0.25).epsilon(1e-14));
   CHECK(clearance_of(map_of({".#", ".."}, 1.0), {2.0, -1.0, 0.0}) == 2.75);
   // Overlapped: the axis 0.125 m from a face, and inside.
   CHECK(clearance_of(Box{{2.0, 2.0, 2.0}}, {1.125, 0.0, 0.0}) == -0.125);
@@ -180,8 +184,8 @@ TEST_CASE("straight moves end where they touch: nothing is tunnelled through, no
       const double length = dice.chance(0.5) ? 100.0 : dice.chance(0.5) ? dice.between(0.5, 5.0) : 0.05;
       const Move move = straight(scene, hull, start, along, length);
 
-      // Clearance falls below 1e-6 m at `earliest`, and matter itself begins at `latest`. (A way that dips into the last micrometre by no more than
-      // 1e-8 m may be taken for either.)
+      // Clearance falls below 1e-6 m at `earliest`, and matter itself begins at `latest`. (A way that dips into the last micrometre by no
+      // more than 1e-8 m may be taken for either.)
       const double earliest = first_nearer(plans, start, along, hull.radius + touching + 1e-8, length);
       const double latest = first_nearer(plans, start, along, hull.radius + touching - 1e-8, length);
       too_early += move.contact < earliest - 1e-9;
@@ -195,7 +199,8 @@ TEST_CASE("straight moves end where they touch: nothing is tunnelled through, no
       const double s = std::min(move.contact, length);
       const glm::dvec3 end = start + glm::dvec3(s * along, 0.0);
       entered += true_distance(plans, end) < hull.radius - 1e-9;
-      if (move.contact < infinity) entered += !(move.nearest.distance < touching && move.nearest.distance > -1e-9 && move.nearest.solid != no_solid);
+      if (move.contact < infinity)
+        entered += !(move.nearest.distance < touching && move.nearest.distance > -1e-9 && move.nearest.solid != no_solid);
       // By code that shares nothing with contact: no point of the hull is in matter where it ends.
       if (k % 10 == 0)
         for (int spoke = 0; spoke < 12; ++spoke) {
@@ -267,7 +272,8 @@ TEST_CASE("the least clearance of a step is that of its way, to half of what lie
     const Move move = straight(scene, hull, start, along, step, 5.0);
     if (move.contact < infinity) continue;
     double least = infinity;
-    for (int k = 0; k <= 100; ++k) least = std::min(least, true_distance(plans, start + glm::dvec3(0.01 * k * step * along, 0.0)) - hull.radius);
+    for (int k = 0; k <= 100; ++k)
+      least = std::min(least, true_distance(plans, start + glm::dvec3(0.01 * k * step * along, 0.0)) - hull.radius);
     if (least > 5.0) continue;
     ++seen;
     wrong += move.least < least - 0.005 * step || move.least > least + 0.5 * step;

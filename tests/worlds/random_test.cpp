@@ -15,7 +15,9 @@ namespace {
 constexpr std::array uses = {RandomUse::ray_choice, RandomUse::range_noise, RandomUse::sampling, RandomUse::receiver};
 
 /// The 32 bits behind a number of (0, 1).
-std::uint32_t word(double number) { return static_cast<std::uint32_t>(number * 0x1p32); }
+std::uint32_t word(double number) {
+  return static_cast<std::uint32_t>(number * 0x1p32);
+}
 
 }  // namespace
 
@@ -40,9 +42,8 @@ TEST_CASE("a number is a function of its arguments alone") {
 
 TEST_CASE("no two arguments share their numbers") {
   std::vector<std::array<double, 4>> all;
-  const auto add = [&](std::uint64_t seed, std::uint16_t sensor, std::uint64_t scan, std::uint32_t beam, RandomUse use, std::uint32_t index) {
-    all.push_back(Random(seed, sensor).uniform(scan, beam, use, index));
-  };
+  const auto add = [&](std::uint64_t seed, std::uint16_t sensor, std::uint64_t scan, std::uint32_t beam, RandomUse use,
+                       std::uint32_t index) { all.push_back(Random(seed, sensor).uniform(scan, beam, use, index)); };
   constexpr std::uint64_t last_scan = (std::uint64_t{1} << 48) - 1;
   for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{1} << 32, std::numeric_limits<std::uint64_t>::max()})
     for (const auto sensor : std::array<std::uint16_t, 3>{0, 1, 65535})
@@ -120,6 +121,7 @@ TEST_CASE("uses, beams, scans and sensors are not correlated") {
   CHECK(std::abs(correlation(plain, [&](std::uint32_t i) { return random.uniform(i, 0, RandomUse::ray_choice, 1)[0]; })) < four_sigma);
   CHECK(std::abs(correlation(plain, [&](std::uint32_t i) { return random.uniform(i, 1, RandomUse::ray_choice, 0)[0]; })) < four_sigma);
   CHECK(std::abs(correlation(plain, [&](std::uint32_t i) { return random.uniform(i + 1, 0, RandomUse::ray_choice, 0)[0]; })) < four_sigma);
-  CHECK(std::abs(correlation(plain, [&](std::uint32_t i) { return other_sensor.uniform(i, 0, RandomUse::ray_choice, 0)[0]; })) < four_sigma);
+  CHECK(std::abs(correlation(plain, [&](std::uint32_t i) { return other_sensor.uniform(i, 0, RandomUse::ray_choice, 0)[0]; })) <
+        four_sigma);
   CHECK(std::abs(correlation(plain, [&](std::uint32_t i) { return other_seed.uniform(i, 0, RandomUse::ray_choice, 0)[0]; })) < four_sigma);
 }

@@ -36,9 +36,14 @@ HandMadeWorld jumble(Dice& dice, int count) {
     const double yaw = dice.between(-pi, pi);
     const std::uint32_t material = dice.pick(5);
     switch (i % 3) {
-      case 0: w.add(Sphere{dice.between(0.1, 1.5)}, position, yaw, material); break;
-      case 1: w.add(Box{dice.point(glm::dvec3(0.1), glm::dvec3(3.0))}, position, yaw, material); break;
-      default: w.add(Cylinder{dice.between(0.1, 1.0), dice.between(0.1, 3.0)}, position, yaw, material);
+      case 0:
+        w.add(Sphere{dice.between(0.1, 1.5)}, position, yaw, material);
+        break;
+      case 1:
+        w.add(Box{dice.point(glm::dvec3(0.1), glm::dvec3(3.0))}, position, yaw, material);
+        break;
+      default:
+        w.add(Cylinder{dice.between(0.1, 1.0), dice.between(0.1, 3.0)}, position, yaw, material);
     }
   }
   return w;
@@ -59,7 +64,9 @@ CrossingLists all_crossings(const Scene& scene, std::span<const Ray> rays) {
   CHECK(lists.first.size() == rays.size() + 1);
   return lists;
 }
-std::vector<Crossing> all_crossings(const Scene& scene, const Ray& ray) { return all_crossings(scene, {&ray, 1}).items; }
+std::vector<Crossing> all_crossings(const Scene& scene, const Ray& ray) {
+  return all_crossings(scene, {&ray, 1}).items;
+}
 
 Hit closest(const Scene& scene, const Ray& ray, Stops stops = Stops::everything) {
   Hit hit;
@@ -76,13 +83,19 @@ double normals_differ(const Crossing& a, const Crossing& b) {
   return std::max(glm::distance(a.enter_normal, b.enter_normal), glm::distance(a.leave_normal, b.leave_normal));
 }
 
-bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
-bool same_bits(const glm::dvec3& a, const glm::dvec3& b) { return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z); }
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+bool same_bits(const glm::dvec3& a, const glm::dvec3& b) {
+  return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
+}
 bool same_bits(const Crossing& a, const Crossing& b) {
   return same_bits(a.enter, b.enter) && same_bits(a.leave, b.leave) && a.solid == b.solid && a.starts_inside == b.starts_inside &&
          same_bits(a.enter_normal, b.enter_normal) && same_bits(a.leave_normal, b.leave_normal);
 }
-bool same_bits(const Hit& a, const Hit& b) { return same_bits(a.range, b.range) && a.solid == b.solid && same_bits(a.normal, b.normal); }
+bool same_bits(const Hit& a, const Hit& b) {
+  return same_bits(a.range, b.range) && a.solid == b.solid && same_bits(a.normal, b.normal);
+}
 
 bool stops_it(const Material& material, Stops stops) {
   return stops == Stops::everything || (stops == Stops::light ? material.stops_light : material.stops_motion);
@@ -199,7 +212,8 @@ TEST_CASE("boxes that share a face have no gap between them") {
     int through_both = 0;
     for (int i = 0; i < 2000; ++i) {
       // Through a point of the shared face, from anywhere.
-      const glm::dvec3 origin(std::round(dice.between(-6.0, -1.0) * 1024.0) / 1024.0, std::round(dice.between(-4.0, 4.0) * 1024.0) / 1024.0, 0.125);
+      const glm::dvec3 origin(std::round(dice.between(-6.0, -1.0) * 1024.0) / 1024.0, std::round(dice.between(-4.0, 4.0) * 1024.0) / 1024.0,
+                              0.125);
       const glm::dvec3 target(1.0, dice.between(-0.9, 0.9), dice.between(-0.9, 0.9));
       const auto c = all_crossings(scene, Ray{origin, glm::normalize(target - origin)});
       REQUIRE(c.size() == 2);
@@ -262,7 +276,8 @@ TEST_CASE("rays aimed at the vertices and edges of a box") {
     const glm::dvec3 position = dice.point(glm::dvec3(-3.0), glm::dvec3(3.0));
     w.add(Box{size}, position, yaw);
     // A vertex, or a point of an edge.
-    glm::dvec3 corner = 0.5 * size * glm::dvec3(dice.chance(0.5) ? 1.0 : -1.0, dice.chance(0.5) ? 1.0 : -1.0, dice.chance(0.5) ? 1.0 : -1.0);
+    glm::dvec3 corner =
+        0.5 * size * glm::dvec3(dice.chance(0.5) ? 1.0 : -1.0, dice.chance(0.5) ? 1.0 : -1.0, dice.chance(0.5) ? 1.0 : -1.0);
     if (i % 2 == 1) corner[static_cast<int>(dice.pick(3))] *= dice.between(-0.9, 0.9);
     const glm::dvec2 turned = Pose2{glm::dvec2(position), yaw}.to_outer(glm::dvec2(corner));
     const glm::dvec3 target(turned, position.z + corner.z);
@@ -345,8 +360,9 @@ TEST_CASE("rays that start inside, graze or miss") {
     CHECK(all_crossings(scene, Ray{{-6.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, std::nextafter(5.0, 0.0)}).empty());
   }
   SUBCASE("misses") {
-    for (const Ray& ray : {Ray{{-5.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}}, Ray{{-5.0, 5.0, 0.0}, {1.0, 0.0, 0.0}}, Ray{{0.0, 0.0, 1.5}, {0.0, 0.0, 1.0}},
-                           Ray{{1e9, 0.0, 0.0}, {0.0, 1.0, 0.0}}, Ray{{-1e12, 1e12, 1e12}, {0.0, 0.0, 1.0}}}) {
+    for (const Ray& ray :
+         {Ray{{-5.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}}, Ray{{-5.0, 5.0, 0.0}, {1.0, 0.0, 0.0}}, Ray{{0.0, 0.0, 1.5}, {0.0, 0.0, 1.0}},
+          Ray{{1e9, 0.0, 0.0}, {0.0, 1.0, 0.0}}, Ray{{-1e12, 1e12, 1e12}, {0.0, 0.0, 1.0}}}) {
       CHECK(all_crossings(scene, ray).empty());
       const Hit hit = closest(scene, ray);
       CHECK(hit.range == infinity);
@@ -369,10 +385,18 @@ TEST_CASE("rejected rays are counted and meet nothing") {
   const Scene scene = traced(w);
   const Ray good{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 5.0};
   const std::vector<Ray> bad = {
-      {{not_a_number, 0.0, 0.0}, {1.0, 0.0, 0.0}},       {{0.0, infinity, 0.0}, {1.0, 0.0, 0.0}}, {{0.0, 0.0, -infinity}, {1.0, 0.0, 0.0}},
-      {{0.0, 0.0, 0.0}, {not_a_number, 0.0, 0.0}},       {{0.0, 0.0, 0.0}, {infinity, 0.0, 0.0}}, {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}},
-      {{0.0, 0.0, 0.0}, {2.0, 0.0, 0.0}},       {{0.0, 0.0, 0.0}, {0.99999, 0.0, 0.0}},  {{0.0, 0.0, 0.0}, {1.0, 1.0, 0.0}},
-      {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, -1.0}, {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, not_a_number}, {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, -infinity},
+      {{not_a_number, 0.0, 0.0}, {1.0, 0.0, 0.0}},
+      {{0.0, infinity, 0.0}, {1.0, 0.0, 0.0}},
+      {{0.0, 0.0, -infinity}, {1.0, 0.0, 0.0}},
+      {{0.0, 0.0, 0.0}, {not_a_number, 0.0, 0.0}},
+      {{0.0, 0.0, 0.0}, {infinity, 0.0, 0.0}},
+      {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}},
+      {{0.0, 0.0, 0.0}, {2.0, 0.0, 0.0}},
+      {{0.0, 0.0, 0.0}, {0.99999, 0.0, 0.0}},
+      {{0.0, 0.0, 0.0}, {1.0, 1.0, 0.0}},
+      {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, -1.0},
+      {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, not_a_number},
+      {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, -infinity},
   };
   std::vector<Ray> rays;
   for (const Ray& ray : bad) {
@@ -426,7 +450,8 @@ TEST_CASE("a world with numbers that are not finite is not built") {
       w.add(Sphere{1.0}, {3.0, 0.0, 0.0});
       w.add(shape, position, yaw);
       const auto scene = Scene::build(w.world);
-      return !scene && scene.error().message.find("solid 1") != std::string::npos && scene.error().message.find("finite") != std::string::npos;
+      return !scene && scene.error().message.find("solid 1") != std::string::npos &&
+             scene.error().message.find("finite") != std::string::npos;
     };
     CHECK(fails(Sphere{wrong}));
     CHECK(fails(Sphere{1.0}, {wrong, 0.0, 0.0}));
@@ -445,7 +470,8 @@ TEST_CASE("a world with numbers that are not finite is not built") {
 }
 
 TEST_CASE("a world far out gives the ranges of the same world at home") {
-  // Everything in steps of 2^-10 m, so that a shift by a power of two loses nothing. Two boxes hold the turned ones, whose corners are no such numbers.
+  // Everything in steps of 2^-10 m, so that a shift by a power of two loses nothing. Two boxes hold the turned ones, whose corners are no
+  // such numbers.
   Dice dice(7);
   const auto dyadic = [&](double low, double high) { return std::round(dice.between(low, high) * 1024.0) / 1024.0; };
   const auto dyadic_point = [&](double reach) { return glm::dvec3(dyadic(-reach, reach), dyadic(-reach, reach), dyadic(-2.0, 2.0)); };
@@ -478,8 +504,9 @@ TEST_CASE("a world far out gives the ranges of the same world at home") {
     CHECK(differ == 0);
   }
   SUBCASE("at 1000000.1 m, to what rounding makes of a grazing ray") {
-    // There a position is a multiple of 2^-33 m and so off by 2^-34 along each axis, of a solid and of a ray: by e = 2 sqrt(3) 2^-34 at most. The least
-    // chord of a ball of radius r that this can make or take away is 2 sqrt(2 r e), which is 4.9e-5 m for r = 1.5 m; its ends move by half of that.
+    // There a position is a multiple of 2^-33 m and so off by 2^-34 along each axis, of a solid and of a ray: by e = 2 sqrt(3) 2^-34 at
+    // most. The least chord of a ball of radius r that this can make or take away is 2 sqrt(2 r e), which is 4.9e-5 m for r = 1.5 m; its
+    // ends move by half of that.
     constexpr double most = 3e-5;
     const auto far_out = shifted(glm::dvec3(1e6 + 0.1, 1e6 + 0.1, 1e6 + 0.1));
     const auto whole = [](std::span<const Crossing> list) {
@@ -520,7 +547,8 @@ TEST_CASE("an answer depends on its own ray alone") {
         scene.closest_hits(some, Stops::light, some_hits);
         for (std::size_t i = 0; i < some.size(); ++i) {
           differ += !same_bits(some_hits[i], hits[first + i]);
-          differ += !std::ranges::equal(lists[i], together[first + i], [](const Crossing& a, const Crossing& b) { return same_bits(a, b); });
+          differ +=
+              !std::ranges::equal(lists[i], together[first + i], [](const Crossing& a, const Crossing& b) { return same_bits(a, b); });
         }
       }
       CHECK(differ == 0);
@@ -531,7 +559,8 @@ TEST_CASE("an answer depends on its own ray alone") {
     scene.crossings(backward, budget, lists);
     std::size_t differ = 0;
     for (std::size_t i = 0; i < rays.size(); ++i)
-      differ += !std::ranges::equal(lists[i], together[rays.size() - 1 - i], [](const Crossing& a, const Crossing& b) { return same_bits(a, b); });
+      differ += !std::ranges::equal(lists[i], together[rays.size() - 1 - i],
+                                    [](const Crossing& a, const Crossing& b) { return same_bits(a, b); });
     CHECK(differ == 0);
   }
 }
@@ -547,7 +576,8 @@ TEST_CASE("copies of a scene share it") {
 
 namespace {
 
-/// Where a ray with a budget is exhausted: matter's loss is integrated from change to change, and of overlapping solids the highest attenuation counts.
+/// Where a ray with a budget is exhausted: matter's loss is integrated from change to change, and of overlapping solids the highest
+/// attenuation counts.
 double exhaustion(const std::vector<Crossing>& crossings, const World& world, double budget) {
   std::vector<double> changes = {0.0};
   for (const Crossing& c : crossings) {
@@ -562,7 +592,8 @@ double exhaustion(const std::vector<Crossing>& crossings, const World& world, do
     for (const Crossing& c : crossings)
       if (c.enter < middle && middle < c.leave) highest = std::max(highest, world.material_of(c.solid).attenuation_db_per_m);
     if (highest == 0.0) continue;
-    if (lost + highest * (changes[i + 1] - changes[i]) >= budget) return highest == infinity ? changes[i] : changes[i] + (budget - lost) / highest;
+    if (lost + highest * (changes[i + 1] - changes[i]) >= budget)
+      return highest == infinity ? changes[i] : changes[i] + (budget - lost) / highest;
     lost += highest * (changes[i + 1] - changes[i]);
   }
   return infinity;
@@ -576,7 +607,8 @@ TEST_CASE("a penetration budget loses nothing that lies before the point of exha
   // Walls have several parts each, so that one of them alone must not end a ray too early.
   for (int i = 0; i < 20; ++i) {
     const glm::dvec2 a = dice.point(glm::dvec2(-6.0), glm::dvec2(6.0)), b = a + dice.between(1.0, 4.0) * direction(dice.between(-pi, pi));
-    w.add(Wall{{a, b, b + dice.between(1.0, 4.0) * direction(dice.between(-pi, pi))}, dice.between(0.05, 1.0), 6.0}, {0.0, 0.0, -3.0}, 0.0, dice.pick(5));
+    w.add(Wall{{a, b, b + dice.between(1.0, 4.0) * direction(dice.between(-pi, pi))}, dice.between(0.05, 1.0), 6.0}, {0.0, 0.0, -3.0}, 0.0,
+          dice.pick(5));
   }
   const World& world = w.world;
   const Scene scene = traced(world);

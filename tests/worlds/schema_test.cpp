@@ -51,11 +51,14 @@ SectionOf<Everything> everything(Range range = or_infinite(Range{})) {
       .key("four", &Everything::four, "m", range, "a rectangle or none")
       .key("line", &Everything::line, "m", range, "points")
       .choice("choice", &Everything::choice, {"north", "south"}, "one of two");
-  section.add("depth", [](Everything& e) -> double& { return e.inner.depth; }, "m", range, "a member of a member");
+  section.add(
+      "depth", [](Everything& e) -> double& { return e.inner.depth; }, "m", range, "a member of a member");
   return section;
 }
 
-bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+bool same(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
 template <class Point>
 bool same_point(const Point& a, const Point& b) {
   for (int i = 0; i < Point::length(); ++i)
@@ -73,7 +76,8 @@ bool same(const Everything& a, const Everything& b) {
   if (a.perhaps.has_value() != b.perhaps.has_value() || (a.perhaps && !same(*a.perhaps, *b.perhaps))) return false;
   if (a.four.has_value() != b.four.has_value() || (a.four && !same_point(*a.four, *b.four))) return false;
   return a.word == b.word && a.flag == b.flag && a.small == b.small && a.large == b.large && same(a.number, b.number) &&
-         same_list(a.list, b.list, [](double x, double y) { return same(x, y); }) && same_point(a.two, b.two) && same_point(a.three, b.three) &&
+         same_list(a.list, b.list, [](double x, double y) { return same(x, y); }) && same_point(a.two, b.two) &&
+         same_point(a.three, b.three) &&
          same_list(a.line, b.line, [](const glm::dvec2& p, const glm::dvec2& q) { return same_point(p, q); }) && a.choice == b.choice &&
          same(a.inner.depth, b.inner.depth);
 }
@@ -91,12 +95,14 @@ Reading read(const std::string& text, const Section& section = everything()) {
   if (!faults.none()) reading.faults = faults.error().message;
   return reading;
 }
-std::string faults_of(const std::string& text, Range range = or_infinite(Range{})) { return read(text, everything(range)).faults; }
+std::string faults_of(const std::string& text, Range range = or_infinite(Range{})) {
+  return read(text, everything(range)).faults;
+}
 
 /// Any double but NaN: bit patterns, and the ones that are hard to write.
 double any_double() {
-  const double hard = *rc::gen::element(0.0, -0.0, 0.1, 1.0 / 3.0, 5e-324, 2.2250738585072014e-308, 1.7976931348623157e308, 1e22, 1e23, 9007199254740993.0,
-                                        -123456789012345680.0, 1e15, 1e16, 1e17, infinity, -infinity);
+  const double hard = *rc::gen::element(0.0, -0.0, 0.1, 1.0 / 3.0, 5e-324, 2.2250738585072014e-308, 1.7976931348623157e308, 1e22, 1e23,
+                                        9007199254740993.0, -123456789012345680.0, 1e15, 1e16, 1e17, infinity, -infinity);
   const double patterned = std::bit_cast<double>(*rc::gen::arbitrary<std::uint64_t>());
   return *rc::gen::arbitrary<bool>() || std::isnan(patterned) ? hard : patterned;
 }
@@ -248,8 +254,8 @@ TEST_CASE("a section describes itself") {
   const Everything e;
   const std::string text = describe_section(everything(between(0.0, 5.0)), &e);
   CHECK(text.find("[everything]  one key of each kind\n") == 0);
-  for (const char* part : {"a number in m, at least 0 and at most 5; default 0.0", "not given", "one of 'north', 'south'; default \"north\"",
-                           "true or false; default false"}) {
+  for (const char* part : {"a number in m, at least 0 and at most 5; default 0.0", "not given",
+                           "one of 'north', 'south'; default \"north\"", "true or false; default false"}) {
     CAPTURE(std::string(part));
     CHECK(text.find(part) != std::string::npos);
   }

@@ -19,7 +19,9 @@ std::vector<Crossing> crossings_of(const Scene& scene, const Ray& ray) {
   return lists.items;
 }
 
-Ray level_ray(const glm::dvec2& from, double bearing, double z = 1.0) { return {{from, z}, {direction(bearing), 0.0}}; }
+Ray level_ray(const glm::dvec2& from, double bearing, double z = 1.0) {
+  return {{from, z}, {direction(bearing), 0.0}};
+}
 
 Scene wall(std::vector<glm::dvec2> points, double thickness) {
   HandMadeWorld w;
@@ -164,7 +166,8 @@ MapSolid any_map() {
   map.grid.resolution = *rc::gen::element(0.05, 0.1, 0.25, 1.0 / 3.0, 1.0);
   map.unknown_is_matter = *rc::gen::arbitrary<bool>();
   const int occupied = *rc::gen::inRange(0, 101), unknown = *rc::gen::inRange(0, 30);
-  const auto cells = *rc::gen::container<std::vector<int>>(static_cast<std::size_t>(map.grid.width * map.grid.height), rc::gen::inRange(0, 100));
+  const auto cells =
+      *rc::gen::container<std::vector<int>>(static_cast<std::size_t>(map.grid.width * map.grid.height), rc::gen::inRange(0, 100));
   for (const int cell : cells)
     map.grid.cells.push_back(cell < unknown ? CellState::unknown : cell < occupied ? CellState::occupied : CellState::free);
   map.blocks = merge_cells(map);
@@ -182,7 +185,8 @@ TEST_CASE("the merged blocks of a map cover its matter, each cell once, and noth
       RC_ASSERT(b.column + b.columns <= map.grid.width);
       RC_ASSERT(b.row + b.rows <= map.grid.height);
       for (int row = b.row; row < b.row + b.rows; ++row)
-        for (int column = b.column; column < b.column + b.columns; ++column) ++covered[static_cast<std::size_t>(row * map.grid.width + column)];
+        for (int column = b.column; column < b.column + b.columns; ++column)
+          ++covered[static_cast<std::size_t>(row * map.grid.width + column)];
     }
     for (std::size_t i = 0; i < covered.size(); ++i) {
       const bool matter = map.grid.cells[i] == CellState::occupied || (map.grid.cells[i] == CellState::unknown && map.unknown_is_matter);
@@ -300,7 +304,8 @@ TEST_CASE("an extent holds its solid and no more") {
   CHECK(is(extent(solid), {0.0, 2.5, 3.0}, {0.5, 3.0, 5.0}));
   solid.yaw = pi / 4;
   solid.shape = Box{{2.0, 2.0, 2.0}};
-  CHECK(is(extent(solid), {1.0 - std::numbers::sqrt2, 2.0 - std::numbers::sqrt2, 2.0}, {1.0 + std::numbers::sqrt2, 2.0 + std::numbers::sqrt2, 4.0}));
+  CHECK(is(extent(solid), {1.0 - std::numbers::sqrt2, 2.0 - std::numbers::sqrt2, 2.0},
+           {1.0 + std::numbers::sqrt2, 2.0 + std::numbers::sqrt2, 4.0}));
   CHECK_FALSE(extent(World{}).has_value());
 }
 

@@ -35,7 +35,8 @@ struct Sketch {
   glm::dvec2 at(char letter) const {
     for (int row = 0; row < grid.height; ++row)
       for (int column = 0; column < grid.width; ++column)
-        if (rows[static_cast<std::size_t>(grid.height - 1 - row)][static_cast<std::size_t>(column)] == letter) return grid.centre(column, row);
+        if (rows[static_cast<std::size_t>(grid.height - 1 - row)][static_cast<std::size_t>(column)] == letter)
+          return grid.centre(column, row);
     FAIL("no such letter");
     return {};
   }
@@ -48,7 +49,8 @@ std::vector<std::string> drawn(const TruthGrid& grid) {
   for (int row = grid.height - 1; row >= 0; --row) {
     rows.emplace_back();
     for (int column = 0; column < grid.width; ++column)
-      rows.back() += grid.blocked[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(column)] ? '#' : '.';
+      rows.back() +=
+          grid.blocked[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(column)] ? '#' : '.';
   }
   return rows;
 }
@@ -187,7 +189,8 @@ TEST_CASE("nothing is connected to what is blocked or outside") {
   CHECK(connected(room.grid, {10.01, -0.01}, {11.49, -0.49}));
   CHECK_FALSE(connected(room.grid, room.at('a'), {11.25, -0.75}));
   CHECK_FALSE(connected(room.grid, {11.25, -0.75}, room.at('a')));
-  for (const glm::dvec2 outside : {glm::dvec2(9.99, -0.5), glm::dvec2(11.51, -0.5), glm::dvec2(10.5, -1.01), glm::dvec2(10.5, 0.01), glm::dvec2(-50.0, 3.0)}) {
+  for (const glm::dvec2 outside :
+       {glm::dvec2(9.99, -0.5), glm::dvec2(11.51, -0.5), glm::dvec2(10.5, -1.01), glm::dvec2(10.5, 0.01), glm::dvec2(-50.0, 3.0)}) {
     CHECK_FALSE(room.grid.contains(outside));
     CHECK_FALSE(connected(room.grid, room.at('a'), outside));
     CHECK_FALSE(connected(room.grid, outside, room.at('a')));
@@ -257,7 +260,9 @@ TEST_CASE("obstacles are what stops motion at the heights of the hull") {
   w.add(Cylinder{0.4, 1.0}, {1.5, 0.5, 0.5}, 0.0, smoke);
   w.add(Cylinder{0.4, 1.0}, {2.5, 0.5, 2.5}, 0.0, hard);  // from 2 m to 3 m
   w.add(Sphere{0.5}, {3.5, 0.5, 1.4}, 0.0, hard);         // from 0.9 m to 1.9 m
-  const auto at = [&](double z_low, double z_high) { return drawn(grown_obstacles(w.world, {0.0, 0.0}, {5.0, 1.0}, 1.0, 0.05, z_low, z_high)).at(0); };
+  const auto at = [&](double z_low, double z_high) {
+    return drawn(grown_obstacles(w.world, {0.0, 0.0}, {5.0, 1.0}, 1.0, 0.05, z_low, z_high)).at(0);
+  };
   CHECK(at(0.0, 0.5) == "#....");
   CHECK(at(0.0, 0.95) == "#..#.");
   CHECK(at(1.1, 1.2) == "...#.");

@@ -94,9 +94,13 @@ Reading read(std::string_view text) {
 }
 
 /// What is put below a good head: `name` on line 1, a material "wall" on lines 2 and 3, so that this text begins on line 4.
-std::string error_below_head(const std::string& text) { return read("name = \"n\"\n[material.wall]\nreflectivity = 0.5\n" + text).error; }
+std::string error_below_head(const std::string& text) {
+  return read("name = \"n\"\n[material.wall]\nreflectivity = 0.5\n" + text).error;
+}
 
-std::size_t lines_in(const std::string& text) { return text.empty() ? 0 : 1 + static_cast<std::size_t>(std::ranges::count(text, '\n')); }
+std::size_t lines_in(const std::string& text) {
+  return text.empty() ? 0 : 1 + static_cast<std::size_t>(std::ranges::count(text, '\n'));
+}
 
 }  // namespace
 
@@ -205,7 +209,8 @@ TEST_CASE("broken files are told with their place, what is wrong and what was ex
        "w.toml:6:8: 'name' is an integer, expected a text in quotes"},
       {"number for a flag", "[material.fog]\nstops_light = 1\n", "w.toml:5:15: 'stops_light' is an integer, expected true or false"},
       {"two numbers for three", "[[solid]]\ntype = \"sphere\"\nmaterial = \"wall\"\nposition_m = [0, 0]\nradius_m = 1\n",
-       "w.toml:7:14: 'position_m' has an array of length 2, expected an array of 3 numbers in m, at least -1000000000 and at most 1000000000"},
+       "w.toml:7:14: 'position_m' has an array of length 2, expected an array of 3 numbers in m, at least -1000000000 and at most "
+       "1000000000"},
       {"reflectivity above 1", "[material.fog]\nreflectivity = 1.5\n",
        "w.toml:5:16: 'reflectivity' is 1.5, expected a number, at least 0 and at most 1"},
       {"negative attenuation", "[material.fog]\nattenuation_db_per_m = -1\n",
@@ -231,18 +236,24 @@ TEST_CASE("broken files are told with their place, what is wrong and what was ex
        "w.toml:4:1: [[solid]] of type \"sphere\" lacks the key 'radius_m', expected a number in m, above 0 and at most 1000000000"},
       {"missing type", "[[solid]]\nmaterial = \"wall\"\nradius_m = 1\n",
        "w.toml:4:1: [[solid]] lacks a 'type', expected one of 'box', 'sphere', 'cylinder', 'wall', 'map'"},
-      {"type that is no text", "[[solid]]\ntype = 1\nmaterial = \"wall\"\n", "w.toml:5:8: 'type' is an integer, expected one of 'box', 'sphere', 'cylinder', 'wall', 'map'"},
+      {"type that is no text", "[[solid]]\ntype = 1\nmaterial = \"wall\"\n",
+       "w.toml:5:8: 'type' is an integer, expected one of 'box', 'sphere', 'cylinder', 'wall', 'map'"},
       {"unknown type", "[[solid]]\ntype = \"sphare\"\nmaterial = \"wall\"\nradius_m = 1\n",
        "w.toml:5:8: 'type' is 'sphare', expected one of 'box', 'sphere', 'cylinder', 'wall', 'map' (did you mean 'sphere'?)"},
-      {"solid that is one table", "[solid]\ntype = \"sphere\"\n", "w.toml:4:1: 'solid' is not an array of tables, expected entries [[solid]]"},
+      {"solid that is one table", "[solid]\ntype = \"sphere\"\n",
+       "w.toml:4:1: 'solid' is not an array of tables, expected entries [[solid]]"},
       {"one point", "[[solid]]\ntype = \"wall\"\nmaterial = \"wall\"\npoints_m = [[0, 0]]\n",
        "w.toml:7:12: 'points_m' has 1 points, expected two or more"},
-      {"no points", "[[solid]]\ntype = \"wall\"\nmaterial = \"wall\"\n", "w.toml:4:1: [[solid]] of type \"wall\" lacks the key 'points_m', expected"},
+      {"no points", "[[solid]]\ntype = \"wall\"\nmaterial = \"wall\"\n",
+       "w.toml:4:1: [[solid]] of type \"wall\" lacks the key 'points_m', expected"},
       {"points that repeat", "[[solid]]\ntype = \"wall\"\nmaterial = \"wall\"\npoints_m = [[0, 0], [1, 0], [1.0, 0.0], [2, 0]]\n",
        "w.toml:7:12: points 2 and 3 of 'points_m' are the same, expected different ones"},
-      {"empty points", "[[solid]]\ntype = \"wall\"\nmaterial = \"wall\"\npoints_m = []\n", "w.toml:7:12: 'points_m' has 0 points, expected two or more"},
-      {"point of three numbers", "[[solid]]\ntype = \"wall\"\nmaterial = \"wall\"\npoints_m = [[0, 0], [1, 0, 0]]\n", "w.toml:7:21: 'points_m' has an array of length 3"},
-      {"map without a file", "[[solid]]\ntype = \"map\"\nmaterial = \"wall\"\n", "w.toml:4:1: [[solid]] of type \"map\" lacks the key 'file', expected a text in quotes"},
+      {"empty points", "[[solid]]\ntype = \"wall\"\nmaterial = \"wall\"\npoints_m = []\n",
+       "w.toml:7:12: 'points_m' has 0 points, expected two or more"},
+      {"point of three numbers", "[[solid]]\ntype = \"wall\"\nmaterial = \"wall\"\npoints_m = [[0, 0], [1, 0, 0]]\n",
+       "w.toml:7:21: 'points_m' has an array of length 3"},
+      {"map without a file", "[[solid]]\ntype = \"map\"\nmaterial = \"wall\"\n",
+       "w.toml:4:1: [[solid]] of type \"map\" lacks the key 'file', expected a text in quotes"},
   };
   for (const Broken& broken : table) {
     CAPTURE(std::string(broken.what));
@@ -255,9 +266,13 @@ TEST_CASE("broken files are told with their place, what is wrong and what was ex
 
 TEST_CASE("broken heads of files") {
   CHECK(read("").error == "w.toml:1:1: world file lacks the key 'name', expected a text in quotes");
-  CHECK(read("name = \"n\"\nbounds_m = [0, 0, 5, 0]\n").error == "w.toml:2:12: 'bounds_m' is empty, expected x_min < x_max and y_min < y_max");
-  CHECK(read("name = \"n\"\nbounds_m = [5, 0, 0, 5]\n").error == "w.toml:2:12: 'bounds_m' is empty, expected x_min < x_max and y_min < y_max");
-  CHECK(read("name = \"n\"\nbounds_m = [0, 0, nan, 5]\n").error.find("w.toml:2:19: 'bounds_m' is nan, expected an array of 4 numbers in m") == 0);
+  CHECK(read("name = \"n\"\nbounds_m = [0, 0, 5, 0]\n").error ==
+        "w.toml:2:12: 'bounds_m' is empty, expected x_min < x_max and y_min < y_max");
+  CHECK(read("name = \"n\"\nbounds_m = [5, 0, 0, 5]\n").error ==
+        "w.toml:2:12: 'bounds_m' is empty, expected x_min < x_max and y_min < y_max");
+  CHECK(
+      read("name = \"n\"\nbounds_m = [0, 0, nan, 5]\n").error.find("w.toml:2:19: 'bounds_m' is nan, expected an array of 4 numbers in m") ==
+      0);
   CHECK(read("name = \"n\"\nmaterial = 3\n").error == "w.toml:2:12: 'material' is not a table, expected tables [material.NAME]");
   CHECK(read("name = \"n\"\n[material]\nfog = 3\n").error == "w.toml:3:7: '[material.NAME]' is an integer, expected a table");
   CHECK(read("name = \"n\"\nsolid = [1]\n").error.find("w.toml:2:10: [[solid]] ") == 0);
@@ -295,8 +310,9 @@ TEST_CASE("all faults of a file are told at once, in its order") {
       "[[solid]]\ntype = \"map\"\nmaterial = \"wall\"\nfile = \"none.yaml\"\n");
   CAPTURE(error);
   std::size_t from = 0;
-  for (const char* part : {"w.toml:4:1: unknown key 'colour'", "w.toml:8:12: 'radius_m' is -1", "w.toml:10:8: 'type' is 'ball'", "w.toml:14:10: 'size_m' has",
-                           "w.toml:13:12: there is no material 'glass'", "w.toml:19:12: 'height_m' is 0", "w.toml:18:12: points 1 and 2", "none.yaml"}) {
+  for (const char* part :
+       {"w.toml:4:1: unknown key 'colour'", "w.toml:8:12: 'radius_m' is -1", "w.toml:10:8: 'type' is 'ball'", "w.toml:14:10: 'size_m' has",
+        "w.toml:13:12: there is no material 'glass'", "w.toml:19:12: 'height_m' is 0", "w.toml:18:12: points 1 and 2", "none.yaml"}) {
     CAPTURE(std::string(part));
     const std::size_t at = error.find(part, from);
     CHECK(at != std::string::npos);
@@ -367,10 +383,30 @@ TEST_CASE("the worlds that are shipped can be read and traced") {
 
 TEST_CASE("the help on world files names every key") {
   const std::string help = describe_world_file();
-  for (const char* key : {"name", "source", "bounds_m", "[material.NAME]", "reflectivity", "attenuation_db_per_m", "roughness", "stops_light", "stops_motion",
-                          "[[solid]] of type \"box\"", "size_m", "[[solid]] of type \"sphere\"", "radius_m", "[[solid]] of type \"cylinder\"", "height_m",
-                          "[[solid]] of type \"wall\"", "points_m", "thickness_m", "[[solid]] of type \"map\"", "file", "image", "unknown_is_matter",
-                          "position_m", "yaw_deg"}) {
+  for (const char* key : {"name",
+                          "source",
+                          "bounds_m",
+                          "[material.NAME]",
+                          "reflectivity",
+                          "attenuation_db_per_m",
+                          "roughness",
+                          "stops_light",
+                          "stops_motion",
+                          "[[solid]] of type \"box\"",
+                          "size_m",
+                          "[[solid]] of type \"sphere\"",
+                          "radius_m",
+                          "[[solid]] of type \"cylinder\"",
+                          "height_m",
+                          "[[solid]] of type \"wall\"",
+                          "points_m",
+                          "thickness_m",
+                          "[[solid]] of type \"map\"",
+                          "file",
+                          "image",
+                          "unknown_is_matter",
+                          "position_m",
+                          "yaw_deg"}) {
     CAPTURE(std::string(key));
     CHECK(help.find(key) != std::string::npos);
   }
