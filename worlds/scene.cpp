@@ -455,7 +455,10 @@ Clearance Scene::clearance(const Hull& hull, const glm::dvec3& position, double 
     double slack;
     double best;
     std::uint32_t solid = no_solid;
-    float radius() const { return static_cast<float>(std::hypot(std::max(0.0, best), half_height) + slack); }
+    float radius() const {
+      const double across = std::max(0.0, best);
+      return static_cast<float>(std::sqrt(across * across + half_height * half_height) + slack);
+    }
   };
   // Single precision is asked for a point and a radius that are off by no more than the slack that is added.
   const double slack = 4.0 * impl_->slack + single_precision_slack * (glm::length(at) + best);

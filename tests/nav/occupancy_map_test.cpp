@@ -77,7 +77,7 @@ TEST_CASE("a beam leaves free cells before its echo, an occupied one at it, and 
   CHECK(map.known_cells() == 12);
 }
 
-TEST_CASE("between the edges of matter cells are sensed through; behind its back they are free again; behind an exhausted end unknown") {
+TEST_CASE("between the edges of matter cells are sensed through, behind its back they are free again, behind an exhausted end unknown") {
   OccupancyMap map(spec_at(0.1));
   ScanMaker maker;
   maker.beam(0.0, {echo(0.5, Edge::front), echo(1.0, Edge::back), echo(1.5, Edge::front)}, 1.8, BeamEnd::exhausted);

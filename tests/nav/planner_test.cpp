@@ -93,7 +93,7 @@ TEST_CASE("with nothing in the way both planners go straight") {
   }
 }
 
-TEST_CASE("Bug2 goes half around a disc and leaves on the M-line; the hand decides the side") {
+TEST_CASE("Bug2 goes half around a disc and leaves on the M-line, the hand decides the side") {
   for (const char* hand : {"left", "right"}) {
     const Run run = drive({{{4.0, 0.0}, 1.0}}, to(8.0, 0.0, "bug2", hand));
     CAPTURE(hand);

@@ -479,7 +479,7 @@ TEST_CASE("only the first echo, for a radar that sees through nothing") {
   CHECK(open.beam.sensed_range == 100.0);
 }
 
-TEST_CASE("nearer than range_min nothing is seen, though it weakens; farther than range_max there is nothing") {
+TEST_CASE("nearer than range_min nothing is seen, though it weakens, farther than range_max there is nothing") {
   ScanningRadarSpec spec = one_beam_radar();
   SlabWorld w;
   w.put(5.0, 6.0, SlabWorld::foliage).put(20.0, 21.0, SlabWorld::wall);

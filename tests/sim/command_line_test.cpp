@@ -128,7 +128,7 @@ TEST_CASE("worlds, check, help and --version tell what there is") {
   CHECK(has(thicket(folder, "--help").out, "Exit codes"));
 }
 
-TEST_CASE("a map_server map is a world; a broken image reference says how to go on") {
+TEST_CASE("a map_server map is a world, a broken image reference says how to go on") {
   const auto yaml = outside_data("ros_maps/nav2_depot.yaml");
   if (!yaml) {
     MESSAGE("skipped: no outside data");

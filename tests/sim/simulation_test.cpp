@@ -79,7 +79,7 @@ TEST_CASE("smoke: the straight way is taken, and no bumper feels the smoke") {
   CHECK(simulation->marks().size() == 1);  // the M-line; no hit point
 }
 
-TEST_CASE("through foliage the radar maps at least 60 % of the hidden room, a lidar at most 2 %; cores of the foliage stay unknown") {
+TEST_CASE("through foliage the radar maps at least 60 % of the hidden room, a lidar at most 2 %, cores of the foliage stay unknown") {
   const Simulation radar = finished(shipped("foliage_wall/map_radar")), lidar = finished(shipped("foliage_wall/map_lidar"));
   CHECK(verdict(radar) == "reached");
   CHECK(verdict(lidar) == "reached");
