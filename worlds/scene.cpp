@@ -11,13 +11,12 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "collectors.hpp"
 #include "embree.hpp"
 #include "part_rays.hpp"
 
 namespace thicket {
 namespace {
-
-constexpr unsigned packet = 8;
 
 /// Single-precision numbers that are handed to Embree may be off by this part of the scene's size; bounds and limits are padded by it.
 constexpr double single_precision_slack = 1e-6;
@@ -51,25 +50,12 @@ struct LaneRay {
   double shift = 0.0;  ///< how far along the ray Embree's own ray starts
 };
 
-/// A part that a lane met.
-struct PartCrossing {
-  PartInterval interval;
-  std::uint32_t solid = no_solid;
-  std::uint32_t kind = 0, part = 0;
-};
-
 }  // namespace
 
 /// What Embree's bounds callbacks read.
 struct SceneParts {
   double slack = 0.0;  ///< single-precision slack in metres
   Parts parts;
-};
-
-/// What tracing needs to know of a solid, close together.
-struct Matter {
-  double attenuation_db_per_m = 0.0;   ///< +inf: opaque
-  std::array<bool, 3> stops{};  ///< by `Stops`
 };
 
 struct Scene::Impl : SceneParts {
@@ -120,88 +106,6 @@ const std::vector<Part>& parts_of(const Parts& parts) {
 }
 template <class Part>
 constexpr std::uint32_t kind_of = std::is_same_v<Part, SpherePart> ? 0 : std::is_same_v<Part, CylinderPart> ? 1 : 2;
-
-/// One total order of what is met at the same range.
-bool before(const PartCrossing& a, const PartCrossing& b) {
-  if (a.solid != b.solid) return a.solid < b.solid;
-  if (a.kind != b.kind) return a.kind < b.kind;
-  return a.part < b.part;
-}
-
-/// For joining: the parts of a solid one after the other, by entrance.
-struct BySolid {
-  bool operator()(const PartCrossing& a, const PartCrossing& b) const {
-    if (a.solid != b.solid) return a.solid < b.solid;
-    if (a.interval.enter != b.interval.enter) return a.interval.enter < b.interval.enter;
-    return before(a, b);
-  }
-};
-/// As crossings are listed.
-struct ByRange {
-  bool operator()(const PartCrossing& a, const PartCrossing& b) const {
-    const double enter_a = std::max(0.0, a.interval.enter), enter_b = std::max(0.0, b.interval.enter);
-    if (enter_a != enter_b) return enter_a < enter_b;
-    if (a.interval.leave != b.interval.leave) return a.interval.leave < b.interval.leave;
-    return a.solid < b.solid;
-  }
-};
-/// Whether every part is of another solid. (Many parts are not looked through: false.)
-bool solids_differ(const std::vector<PartCrossing>& met) {
-  if (met.size() > 16) return false;
-  for (std::size_t i = 1; i < met.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (met[i].solid == met[j].solid) return false;
-  return true;
-}
-
-/// The nearest part that blocks.
-struct Nearest {
-  const std::vector<Matter>& matter;
-  Stops stops;
-  std::array<PartCrossing, packet> best{};
-  std::array<double, packet> range{};
-
-  void reset() { range.fill(infinity); }
-  /// Takes in a part that a ray of the packet crosses. Returns the range behind which nothing more is wanted.
-  double meet(unsigned lane, const PartCrossing& crossing) {
-    if (!matter[crossing.solid].stops[static_cast<std::size_t>(stops)] || crossing.interval.leave == 0.0) return infinity;
-    const double at = std::max(0.0, crossing.interval.enter);
-    if (at < range[lane] || (at == range[lane] && before(crossing, best[lane]))) {
-      range[lane] = at;
-      best[lane] = crossing;
-    }
-    return range[lane];
-  }
-};
-
-/// All parts as far as the budget reaches.
-struct Gatherer {
-  const std::vector<Matter>& matter;
-  double budget_db;
-  bool through_opaque;
-  std::array<std::vector<PartCrossing>, packet> met{};
-  std::array<double, packet> stop{};
-
-  void reset() {
-    for (auto& list : met) list.clear();
-    stop.fill(infinity);
-  }
-  /// How far a ray gets inside a solid.
-  double depth(std::uint32_t solid) const {
-    const double attenuation = matter[solid].attenuation_db_per_m;
-    if (through_opaque || !(attenuation > 0.0)) return infinity;
-    return attenuation == infinity ? 0.0 : budget_db / attenuation;
-  }
-  /// As above.
-  double meet(unsigned lane, const PartCrossing& crossing) {
-    met[lane].push_back(crossing);
-    // A part that is deep enough to use up the whole budget by itself ends the ray, whatever else lies on it. Deeper by more than rounding: whoever adds up
-    // the losses along the list must come to the same end, or he would go on where the list does not.
-    const double end = std::max(0.0, crossing.interval.enter) + depth(crossing.solid);
-    if (end * (1.0 + 1e-12) < crossing.interval.leave) stop[lane] = std::min(stop[lane], end);
-    return stop[lane];
-  }
-};
 
 /// What the intersect callbacks need to know of a packet; Embree hands it through. One of the two collectors is there.
 struct Query : embree::Context {

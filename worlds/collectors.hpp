@@ -1,0 +1,112 @@
+// What is kept of the parts that the rays of a packet meet. Private to scene.cpp.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "parts.hpp"
+#include "thicket/worlds/scene.hpp"
+
+namespace thicket {
+
+/// Rays that are traced together; a ray of a packet is a lane.
+inline constexpr unsigned packet = 8;
+
+/// What tracing needs to know of a solid, close together.
+struct Matter {
+  double attenuation_db_per_m = 0.0;  ///< +inf: opaque
+  std::array<bool, 3> stops{};        ///< by `Stops`
+};
+
+/// A part that a lane met.
+struct PartCrossing {
+  PartInterval interval;
+  std::uint32_t solid = no_solid;
+  std::uint32_t kind = 0, part = 0;
+};
+
+/// One total order of what is met at the same range.
+inline bool before(const PartCrossing& a, const PartCrossing& b) {
+  if (a.solid != b.solid) return a.solid < b.solid;
+  if (a.kind != b.kind) return a.kind < b.kind;
+  return a.part < b.part;
+}
+
+/// For joining: the parts of a solid one after the other, by entrance.
+struct BySolid {
+  bool operator()(const PartCrossing& a, const PartCrossing& b) const {
+    if (a.solid != b.solid) return a.solid < b.solid;
+    if (a.interval.enter != b.interval.enter) return a.interval.enter < b.interval.enter;
+    return before(a, b);
+  }
+};
+/// As crossings are listed.
+struct ByRange {
+  bool operator()(const PartCrossing& a, const PartCrossing& b) const {
+    const double enter_a = std::max(0.0, a.interval.enter), enter_b = std::max(0.0, b.interval.enter);
+    if (enter_a != enter_b) return enter_a < enter_b;
+    if (a.interval.leave != b.interval.leave) return a.interval.leave < b.interval.leave;
+    return a.solid < b.solid;
+  }
+};
+/// Whether every part is of another solid. (Many parts are not looked through: false.)
+inline bool solids_differ(const std::vector<PartCrossing>& met) {
+  if (met.size() > 16) return false;
+  for (std::size_t i = 1; i < met.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (met[i].solid == met[j].solid) return false;
+  return true;
+}
+
+/// The nearest part that blocks.
+struct Nearest {
+  const std::vector<Matter>& matter;
+  Stops stops;
+  std::array<PartCrossing, packet> best{};
+  std::array<double, packet> range{};
+
+  void reset() { range.fill(infinity); }
+  /// Takes in a part that a ray of the packet crosses. Returns the range behind which nothing more is wanted.
+  double meet(unsigned lane, const PartCrossing& crossing) {
+    if (!matter[crossing.solid].stops[static_cast<std::size_t>(stops)] || crossing.interval.leave == 0.0) return infinity;
+    const double at = std::max(0.0, crossing.interval.enter);
+    if (at < range[lane] || (at == range[lane] && before(crossing, best[lane]))) {
+      range[lane] = at;
+      best[lane] = crossing;
+    }
+    return range[lane];
+  }
+};
+
+/// All parts as far as the budget reaches.
+struct Gatherer {
+  const std::vector<Matter>& matter;
+  double budget_db;
+  bool through_opaque;
+  std::array<std::vector<PartCrossing>, packet> met{};
+  std::array<double, packet> stop{};
+
+  void reset() {
+    for (auto& list : met) list.clear();
+    stop.fill(infinity);
+  }
+  /// How far a ray gets inside a solid.
+  double depth(std::uint32_t solid) const {
+    const double attenuation = matter[solid].attenuation_db_per_m;
+    if (through_opaque || !(attenuation > 0.0)) return infinity;
+    return attenuation == infinity ? 0.0 : budget_db / attenuation;
+  }
+  /// As `Nearest::meet`.
+  double meet(unsigned lane, const PartCrossing& crossing) {
+    met[lane].push_back(crossing);
+    // A part that is deep enough to use up the whole budget by itself ends the ray, whatever else lies on it. Deeper by more than rounding: whoever adds up
+    // the losses along the list must come to the same end, or he would go on where the list does not.
+    const double end = std::max(0.0, crossing.interval.enter) + depth(crossing.solid);
+    if (end * (1.0 + 1e-12) < crossing.interval.leave) stop[lane] = std::min(stop[lane], end);
+    return stop[lane];
+  }
+};
+
+}  // namespace thicket
