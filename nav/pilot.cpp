@@ -7,14 +7,24 @@
 
 namespace thicket {
 
+namespace {
+
+/// Deciding more often than ten times a second does not make a vehicle answer sooner: gains stay those that it can follow.
+VehicleLimits vehicle_for_steering(VehicleLimits vehicle) {
+  vehicle.decision_period = std::max(vehicle.decision_period, 0.1);
+  return vehicle;
+}
+
+}  // namespace
+
 Pilot::Pilot(const PlannerSpec& spec, const VehicleLimits& vehicle)
-    : vehicle_(vehicle),
+    : vehicle_(vehicle_for_steering(vehicle)),
       keep_(vehicle.hull_radius + spec.clearance_m),
       gap_(std::max(0.01, 0.05 * spec.clearance_m)),
       look_ahead_(std::clamp(0.4 * keep_, 0.06, 0.6)),
       // The boundary is steered along by looking ahead: a robot that covers this distance faster than it can decide and turn swings from side to side. A turn by
       // 20 degrees takes 2 sqrt(0.35 / turn acceleration).
-      following_speed_(look_ahead_ / (2.5 * vehicle.decision_period + 1.2 * std::sqrt(0.35 / vehicle.turn_acceleration))),
+      following_speed_(look_ahead_ / (2.5 * vehicle_.decision_period + 1.2 * std::sqrt(0.35 / vehicle.turn_acceleration))),
       same_place_(std::max(0.06, 0.12 * keep_)),
       speed_(std::min(vehicle.speed, spec.speed_m_s.value_or(vehicle.speed))),
       goal_tolerance_(spec.goal_tolerance_m) {}

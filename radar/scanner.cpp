@@ -91,9 +91,9 @@ class Scanner : public Sensor {
       const Beam& beam = scan.beams[b];
       for (std::uint32_t e = 0; e < beam.echo_count; ++e) {
         double& range = echoes[beam.first_echo + e].range;
-        range = std::max(0.0, range + shift);
+        range = std::clamp(range + shift, 0.0, spec().range_max_m);
       }
-      if (beam.end != BeamEnd::open) scan.beams[b].sensed_range = std::max(0.0, beam.sensed_range + shift);
+      if (beam.end != BeamEnd::open) scan.beams[b].sensed_range = std::clamp(beam.sensed_range + shift, 0.0, spec().range_max_m);
     }
   }
 

@@ -36,13 +36,43 @@ void warn_of_stealth(const Simulation& simulation, std::vector<std::string>& war
     }
   }
   for (const auto& [material, solids] : undetected)
-    warnings.push_back(fmt::format("{} of material '{}' stop motion but would not be detected by sensor '{}': raise the material's reflectivity or lower the sensor's "
-                                   "detection_floor_db",
-                                   name_some(solids), material, sensor.spec().name));
+    warnings.push_back(fmt::format("{} of material '{}' stop motion but would not be detected by sensor '{}': {}",
+                                   name_some(solids), material, sensor.spec().name,
+                                   std::holds_alternative<LidarSpec>(mission.sensors.front()) ? "set the material's stops_light, or use a radar"
+                                                                                               : "raise the material's reflectivity or lower the sensor's detection_floor_db"));
   if (!off_plane.empty())
     warnings.push_back(fmt::format("{} reach into the hull's heights but not, or much less, into the plane of sensor '{}' at z = {:.2f} m: they would not be seen in time; change "
                                    "the sensor's position_m",
                                    name_some(off_plane), sensor.spec().name, plane));
+}
+
+/// What the sensor that drives the bumpers cannot see in time, whatever it is made of.
+void warn_of_blindness(const Simulation& simulation, std::vector<std::string>& warnings) {
+  const Mission& mission = simulation.mission();
+  const ScannerSpec& sensor = simulation.stage().sensors.front()->spec();
+  const double radius = mission.vehicle.radius_m, press = simulation.bumpers().press_distance();
+  const double speed = std::min(mission.vehicle.speed_max_m_s, mission.planner.speed_m_s.value_or(mission.vehicle.speed_max_m_s));
+  const double rate = std::min(sensor.rate_hz, 1.0 / mission.step_s);
+  for (const SensorSpec& spec : mission.sensors)
+    if (scanner(spec).rate_hz * mission.step_s > 1.0 + 1e-9)
+      warnings.push_back(fmt::format("sensor '{}' is to scan at {} Hz, but there is one scan a step at most, {:g} Hz: make step_s smaller", scanner(spec).name, scanner(spec).rate_hz, 1.0 / mission.step_s));
+  if (sensor.range_max_m < radius + press)
+    warnings.push_back(fmt::format("sensor '{}' sees {} m far, but a bumper must be pressed {:.2f} m from the robot's axis to keep the clearance: make range_max_m longer", sensor.name, sensor.range_max_m, radius + press));
+  if (sensor.range_min_m > radius)
+    warnings.push_back(fmt::format("sensor '{}' sees nothing nearer than {} m, which is outside the hull: make range_min_m shorter", sensor.name, sensor.range_min_m));
+  if (sensor.fov_deg < 360.0 && mission.planner.name != "waypoints")
+    warnings.push_back(fmt::format("sensor '{}' sees {} of 360 degrees: the planner '{}' follows boundaries beside and behind it and may run into what it does not see", sensor.name, sensor.fov_deg, mission.planner.name));
+  if (speed / rate > mission.planner.clearance_m)
+    warnings.push_back(fmt::format("the robot drives {:.2f} m between two scans, more than the clearance of {} m", speed / rate, mission.planner.clearance_m));
+  const double spacing = radians(sensor.step_deg) * (radius + mission.planner.clearance_m);
+  std::vector<std::string> thin;
+  for (const Solid& solid : simulation.stage().scene.world().solids) {
+    const auto* box = std::get_if<Box>(&solid.shape);
+    const double width = box ? std::max(box->size.x, box->size.y) : 2.0 * half_width_between(solid, -infinity, infinity);
+    if (width < spacing && simulation.stage().scene.world().materials[solid.material].stops_motion) thin.push_back(solid.name);
+  }
+  if (!thin.empty())
+    warnings.push_back(fmt::format("{}: narrower than the {:.3f} m between the beams of sensor '{}' at the clearance, may be missed: make step_deg smaller", name_some(thin), spacing, sensor.name));
 }
 
 }  // namespace
@@ -51,7 +81,9 @@ std::vector<std::string> mission_warnings(const Simulation& simulation) {
   std::vector<std::string> warnings;
   const Mission& mission = simulation.mission();
   warn_of_stealth(simulation, warnings);
+  warn_of_blindness(simulation, warnings);
   const double at_start = simulation.clearance().distance;
+  if (at_start <= 0.0) warnings.push_back("the hull touches matter at the start: the run will end at once, collided");
   if (at_start < mission.planner.clearance_m && at_start > 0.0)
     warnings.push_back(fmt::format("the start is {:.2f} m from matter, nearer than the clearance of {} m", at_start, mission.planner.clearance_m));
   const auto warn_of_target = [&](const glm::dvec2& target, const std::string& what) {

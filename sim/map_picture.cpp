@@ -75,11 +75,12 @@ void draw_map(Canvas& canvas, const View& view, const OccupancyMap& map) {
   const double cell = map.resolution();
   const auto first_column = std::llround(view.low.x / cell), first_row = std::llround(view.low.y / cell);
   const auto columns = static_cast<int>(std::llround(view.high.x / cell) - first_column), rows = static_cast<int>(std::llround(view.high.y / cell) - first_row);
+  // Of a map with more cells than the picture has pixels, every so-manieth is drawn.
+  const int every = std::max(1, std::max(columns, rows) / 2200);
   std::vector<std::uint32_t> pixels;
-  pixels.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-  for (int r = rows - 1; r >= 0; --r)
-    for (int c = 0; c < columns; ++c) pixels.push_back(pixel_of(map, {first_column + c, first_row + r}));
-  canvas.image(pixels, columns, rows, view.at({view.low.x, view.high.y}), view.scale * cell);
+  for (int r = rows - 1; r >= 0; r -= every)
+    for (int c = 0; c < columns; c += every) pixels.push_back(pixel_of(map, {first_column + c, first_row + r}));
+  canvas.image(pixels, (columns + every - 1) / every, (rows + every - 1) / every, view.at({view.low.x, view.high.y}), view.scale * cell * every);
 }
 
 void draw_run(Canvas& canvas, const View& view, const Simulation& simulation, const Trajectory& trajectory) {

@@ -123,6 +123,12 @@ Node& member(Node& table, const std::string& key) {
   return members->back().second;
 }
 
+/// The name of a [[sensor]] entry, its preset's if it has none of its own. Faults are told when the entry is read.
+std::string name_of_sensor(const Node& entry) {
+  Faults ignored;
+  return scanner(read_sensor(entry, ignored)).name;
+}
+
 void apply_to_sensors(Node& root, const std::string& rest, const Override& change, Faults& faults) {
   auto* sensors = std::get_if<Node::Array>(&member(root, "sensor").content);
   if (!sensors) return;  // told by the reader
@@ -131,9 +137,7 @@ void apply_to_sensors(Node& root, const std::string& rest, const Override& chang
   const std::string key = dot == std::string::npos ? rest : rest.substr(dot + 1);
   bool found = false;
   for (Node& sensor : *sensors) {
-    const Node* own = sensor.find("name");
-    const auto* own_name = own ? std::get_if<std::string>(&own->content) : nullptr;
-    if (!name.empty() && (!own_name || *own_name != name)) continue;
+    if (!name.empty() && name != name_of_sensor(sensor)) continue;
     member(sensor, key) = override_value(change);
     found = true;
   }
@@ -161,15 +165,20 @@ void apply(Node& root, const Override& change, Faults& faults) {
 std::filesystem::path locate(const Node* node, const std::string& name, const std::filesystem::path& mission) {
   const bool from_file = node && node->place.line > 0;
   const std::filesystem::path beside = from_file ? mission.parent_path() / name : std::filesystem::path(name);
-  if (std::filesystem::is_regular_file(beside)) return std::filesystem::absolute(beside).lexically_normal();
-  const auto shipped = find_input(name);
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(beside, ignored)) return std::filesystem::absolute(beside).lexically_normal();
+  const auto shipped = find_shipped(name);
   return shipped.empty() ? shipped : std::filesystem::absolute(shipped).lexically_normal();
 }
 
 void find_files(const Node& root, const std::filesystem::path& file, Mission& mission, Faults& faults) {
   const auto find = [&](const char* key, const std::string& name) {
     const auto found = locate(root.find(key), name, file);
-    if (found.empty()) faults.add(root.find(key) ? root.find(key)->place : root.place, fmt::format("there is no file '{}', expected a path relative to the mission or a shipped world (`thicket worlds`)", name));
+    if (found.empty()) {
+      const Node* node = root.find(key);
+      const bool from_file = node && node->place.line > 0;
+      faults.add(node ? node->place : root.place, fmt::format("there is no file '{}', expected a path relative to {}, or a shipped world (`thicket worlds`)", name, from_file ? "the mission" : "the working directory"));
+    }
     return found;
   };
   if (!mission.world.empty()) mission.world_file = find("world", mission.world);
@@ -188,6 +197,12 @@ void check_together(const Node& root, const Mission& mission, Faults& faults) {
       faults.add(place("map"), fmt::format("a scan of sensor '{}' covers {:.0f} x {:.0f} cells, expected at most 16384 x 16384: make map.resolution_m coarser or the range shorter",
                                            scanner(sensor).name, cells, cells));
   }
+  for (std::size_t i = 0; i < mission.sensors.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (scanner(mission.sensors[i]).name == scanner(mission.sensors[j]).name)
+        faults.add(place("sensor"), fmt::format("two sensors are named '{}', expected different names", scanner(mission.sensors[i]).name));
+  if (const auto& r = mission.output.observed_region_m; r && (r->z - r->x) * (r->w - r->y) > 1e7 * mission.map.resolution_m * mission.map.resolution_m)
+    faults.add(place("output"), "'observed_region_m' has more than 10 million cells, expected a smaller one");
   if (const auto& r = mission.output.observed_region_m; r && !(r->x < r->z && r->y < r->w))
     faults.add(place("output"), "'observed_region_m' is empty, expected x_min < x_max and y_min < y_max");
 }
@@ -203,6 +218,8 @@ Result<Mission> read_mission(const std::filesystem::path& file, const std::vecto
     if (!document) return document.error();
     root = std::move(*document);
   }
+  if (!root.find("world") && root.find("solid"))
+    return Error{fmt::format("{}: this is a world and not a mission: thicket run --world {} --start X,Y,YAW_DEG --goal X,Y --planner bug2", file.string(), file.string())};
   Faults faults;
   if (!root.find("sensor")) {
     Node standard;

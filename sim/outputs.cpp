@@ -98,6 +98,13 @@ std::string timing_json(const Simulation& simulation, double wall_start_s, doubl
 Result<Done> write_outputs(const std::filesystem::path& folder, const Simulation& simulation, const Trajectory& trajectory, double wall_start_s, double wall_run_s) {
   const OutputSpec& output = simulation.mission().output;
   const bool with_map = simulation.mission().map.enabled && simulation.map().known_cells() > 0;
+  // A folder that is used again holds nothing of the run before: result.json goes first and comes last, so that where it is, the rest is complete.
+  std::error_code ignored;
+  std::vector<std::string> stale = {"result.json"};
+  if (!output.trajectory) stale.insert(stale.end(), {"trajectory.csv", "trajectory.tum"});
+  if (!output.map || !with_map) stale.insert(stale.end(), {"map.pgm", "map.yaml"});
+  if (!output.picture) stale.emplace_back("map.png");
+  for (const std::string& name : stale) std::filesystem::remove(folder / name, ignored);
   std::vector<Result<Done>> written;
   written.push_back(write_file(folder / "mission.toml", write_mission(simulation.mission())));
   if (output.trajectory) {

@@ -171,7 +171,7 @@ void Simulation::move() {
   if (contact <= length) {
     vehicle_.pose = arc.at(length > 0.0 ? mission.step_s * (contact / length) : 0.0);
     totals_.path_length += contact;
-    verdict_ = {Verdict::Kind::collided, fmt::format("the hull touched '{}' at ({:.2f}, {:.2f})", stage_->scene.world().solids[clearance_.solid].name,
+    verdict_ = {Verdict::Kind::collided, fmt::format("the hull touched '{}' with the robot at ({:.2f}, {:.2f})", stage_->scene.world().solids[clearance_.solid].name,
                                                      vehicle_.pose.position.x, vehicle_.pose.position.y)};
     return;
   }

@@ -23,7 +23,7 @@ std::optional<std::vector<std::string>> split(const std::string& text, std::size
 struct MissionFlags {
   std::string world, start, goal, planner, map_image;
   std::vector<std::string> sets;
-  std::optional<std::int64_t> seed;
+  std::optional<std::string> seed;
 
   void add_to(CLI::App& app) {
     app.add_option("--world", world, "world file or map_server YAML")->type_name("FILE");
@@ -54,7 +54,7 @@ struct MissionFlags {
       if (!split(goal, 2, 2)) return fail("--goal is '" + goal + "', expected X,Y, for example 8,0");
       list.push_back({"planner.goal_m", "[" + goal + "]", "--goal"});
     }
-    if (seed) list.push_back({"seed", fmt::format("{}", *seed), "--seed"});
+    if (seed) list.push_back({"seed", *seed, "--seed"});
     for (const std::string& set : sets) {
       const auto equals = set.find('=');
       if (equals == std::string::npos) return fail("--set is '" + set + "', expected KEY=VALUE, for example planner.clearance_m=0.5");

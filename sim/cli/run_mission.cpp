@@ -2,6 +2,7 @@
 #include <tbb/global_control.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -71,6 +72,26 @@ int complain(const Error& error) {
   return bad_input;
 }
 
+/// The folder of a run that names none: its name, without anything that would lead elsewhere.
+std::filesystem::path standard_folder(const std::string& name) {
+  std::string plain;
+  for (const char c : name) plain += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || (c == '.' && !plain.empty()) ? c : '_';
+  return std::filesystem::path("thicket-out") / (plain.empty() ? "mission" : plain);
+}
+
+/// What would keep the outputs from being written, found before the run and not after it.
+std::optional<Error> folder_fault(const std::filesystem::path& folder, const std::filesystem::path& mission_file, const Mission& mission) {
+  std::error_code fault;
+  std::filesystem::create_directories(folder, fault);
+  if (fault || !std::filesystem::is_directory(folder, fault) || access(folder.c_str(), W_OK) != 0)
+    return Error{fmt::format("--out: the folder '{}' cannot be written to, expected one that can", folder.string())};
+  for (const auto& input : {mission_file, mission.world_file, mission.image_file})
+    for (const char* output : {"mission.toml", "map.yaml", "map.pgm", "map.png"})
+      if (!input.empty() && std::filesystem::equivalent(input, folder / output, fault))
+        return Error{fmt::format("--out: '{}' is read by this run and would be overwritten, expected another folder", (folder / output).string())};
+  return std::nullopt;
+}
+
 std::string summary(const Simulation& simulation, double wall, const std::filesystem::path& folder) {
   const RunTotals& totals = simulation.totals();
   return fmt::format("{}: {}\n  {:.1f} s simulated in {:.2f} s ({:.0f} x real time), path {:.1f} m, least clearance {:.2f} m, {} scans\n  written to {}\n",
@@ -95,7 +116,8 @@ int run_mission(const RunArguments& arguments) {
   if (!simulation) return complain(simulation.error());
   if (!arguments.quiet)
     for (const std::string& warning : mission_warnings(*simulation)) fmt::print(stderr, "warning: {}\n", warning);
-  const std::filesystem::path folder = arguments.out.empty() ? std::filesystem::path("thicket-out") / mission->name : std::filesystem::path(arguments.out);
+  const std::filesystem::path folder = arguments.out.empty() ? standard_folder(mission->name) : std::filesystem::path(arguments.out);
+  if (const auto fault = folder_fault(folder, file, *mission)) return complain(*fault);
 
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);

@@ -89,12 +89,35 @@ size_m = [0.2, 3.0, 1.0]
   for (const auto& [arguments, words] : {std::pair{"run nowhere", "there is no mission 'nowhere'"}, {"run", "nothing to run"}, {"run foliage_wall/bug2 --goal 1", "--goal is '1', expected X,Y"},
                                          {"run foliage_wall/bug2 --set clearance", "expected KEY=VALUE"}, {"run foliage_wall/bug2 --set planner.clearence_m=2", "did you mean 'clearance_m'"},
                                          {"run foliage_wall/bug2 --planner bug9", "expected one of 'bug1', 'bug2', 'waypoints'"}, {"run foliage_wall/bug2 --no-such-flag", "--no-such-flag"},
-                                         {"check nowhere.toml", "there is no file"}, {"help nothing", "expected mission or world"}, {"frobnicate", ""}, {"", ""}}) {
+                                         {"run foliage_wall/divided_room", "this is a world and not a mission"}, {"run foliage_wall/bug2 --seed 9223372036854775808", "--seed: 'seed' is a text"}, {"check nowhere.toml", "there is no file"}, {"help nothing", "expected mission or world"}, {"frobnicate", ""}, {"", ""}}) {
     CAPTURE(arguments);
     const Answer answer = thicket(folder, arguments);
     CHECK(answer.code == 2);
     CHECK(has(answer.err, words));
   }
+}
+
+TEST_CASE("a folder that is used again holds nothing of the run before, and no name or folder overwrites what is read") {
+  const TemporaryFolder folder;
+  REQUIRE(thicket(folder, "run foliage_wall/smoke --out o --quiet").code == 0);
+  REQUIRE(thicket(folder, "run foliage_wall/smoke --out o --quiet --set output.map=false --set output.picture=false --set limits.time_s=1").code == 4);
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "o/map.pgm"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "o/map.png"));
+  CHECK(json_of(folder.path() / "o/result.json")["verdict"] == "stopped");
+  CHECK(thicket(folder, "run foliage_wall/smoke --quiet --set limits.time_s=1 --set name=../../evil").code == 4);
+  CHECK(std::filesystem::exists(folder.path() / "thicket-out/_._.._evil/result.json"));
+
+  const Answer own = thicket(folder, "run o/mission.toml --out o");
+  CHECK(own.code == 2);
+  CHECK(has(own.err, "would be overwritten"));
+  folder.write("file", "");
+  CHECK(has(thicket(folder, "run foliage_wall/smoke --out file").err, "cannot be written to"));
+}
+
+TEST_CASE("a goal far away does not make the picture too large") {
+  const TemporaryFolder folder;
+  CHECK(thicket(folder, "run foliage_wall/smoke --goal 10000,10000 --set limits.time_s=1 --out o --quiet").code == 4);
+  CHECK(read_image(folder.path() / "o/map.png")->width < 3000);
 }
 
 TEST_CASE("--json prints the result alone, --quiet nothing") {

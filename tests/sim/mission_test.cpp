@@ -81,6 +81,7 @@ TEST_CASE("what is wrong with a mission is told with its place and a remedy") {
       {"world = \"w.toml\"\n[planner]\ngoal_m = [1.0, 2.0]\n[sensor]\ntype = \"lidar\"\n", "m.toml:4:1", "expected entries [[sensor]]"},
       {"world = \"w.toml\"\n[planner]\ngoal_m = [1.0, 2.0]\n[[sensor]]\ntype = \"lidar\"\npenetration_budget_db = 3\n", "m.toml:6:1", "unknown key 'penetration_budget_db'"},
       {"world = \"w.toml\"\n[planner]\ngoal_m = [1.0, 2.0]\n[map]\nresolution_m = 0.001\n", "m.toml:4:1", "make map.resolution_m coarser"},
+      {"world = \"w.toml\"\n[planner]\ngoal_m = [1.0, 2.0]\n[[sensor]]\ntype = \"lidar\"\n[[sensor]]\ntype = \"lidar\"\n", "m.toml:4:", "two sensors are named 'sensor'"},
       {"world = \"w.toml\"\nworld = \"w.toml\"\n", "m.toml:2:", "cannot redefine"},
       {"world = \"w.toml\"\n[planner\n", "m.toml:2:", ""},
   };

@@ -30,6 +30,12 @@ Simulation finished(const Mission& mission) {
 
 std::string verdict(const Simulation& simulation) { return to_string(simulation.verdict()->kind); }
 
+bool warned_of(const Simulation& simulation, const std::string& words) {
+  for (const std::string& warning : mission_warnings(simulation))
+    if (warning.find(words) != std::string::npos) return true;
+  return false;
+}
+
 World world_with(const Material& material, Shape shape, const glm::dvec3& position) {
   World world;
   world.materials.push_back(material);
@@ -152,9 +158,8 @@ TEST_CASE("a collision is a verdict: what the sensor cannot see is run into, not
   mission.vehicle.deceleration_m_s2 = 1000.0;
   auto simulation = Simulation::create(mission, world_with(stealth, Box{{0.001, 4.0, 2.0}}, {5.0, 0.0, 1.0}));
   REQUIRE(simulation);
-  const auto warnings = mission_warnings(*simulation);
-  REQUIRE(warnings.size() == 1);
-  CHECK(warnings[0].find("would not be detected") != std::string::npos);
+  CHECK(warned_of(*simulation, "would not be detected"));
+  CHECK(warned_of(*simulation, "between two scans"));  // 20 m/s
   while (simulation->step()) {
   }
   CHECK(verdict(*simulation) == "collided");
@@ -172,6 +177,23 @@ TEST_CASE("matter above or below the sensor's plane is warned of") {
   CHECK(mission_warnings(*low)[0].find("plane of sensor") != std::string::npos);
   auto tall = Simulation::create(mission, world_with(wall, Box{{1.0, 1.0, 2.0}}, {5.0, 0.0, 1.0}));
   CHECK(mission_warnings(*tall).empty());
+}
+
+TEST_CASE("what a sensor cannot see in time is warned of") {
+  Material wall;
+  wall.name = "wall";
+  const auto simulation_of = [&](const std::vector<Override>& overrides, double post_radius) {
+    auto simulation = Simulation::create(shipped("foliage_wall/smoke", overrides), world_with(wall, Cylinder{post_radius, 2.0}, {5.0, 3.0, 1.0}));
+    REQUIRE(simulation);
+    return *simulation;
+  };
+  CHECK(mission_warnings(simulation_of({}, 0.1)).empty());
+  CHECK(warned_of(simulation_of({}, 0.005), "'thing'): narrower than"));
+  CHECK(warned_of(simulation_of({{"sensor.range_max_m", "1.0", "--set"}}, 0.1), "make range_max_m longer"));
+  CHECK(warned_of(simulation_of({{"sensor.range_min_m", "1.0", "--set"}}, 0.1), "make range_min_m shorter"));
+  CHECK(warned_of(simulation_of({{"sensor.fov_deg", "90.0", "--set"}}, 0.1), "sees 90 of 360 degrees"));
+  CHECK(warned_of(simulation_of({{"sensor.radar.rate_hz", "40.0", "--set"}}, 0.1), "make step_s smaller"));
+  CHECK(warned_of(simulation_of({{"sensor.rate_hz", "0.5", "--set"}}, 0.1), "between two scans"));
 }
 
 TEST_CASE("a start in contact is a collision at once, a way-point behind a wall ends with what blocks it, limits have their own verdict") {

@@ -185,12 +185,12 @@ TEST_CASE("an integer is a number, a number is no integer") {
 TEST_CASE("wrong types and lengths") {
   CHECK(faults_of("flag = 1") == "f:1:8: 'flag' is an integer, expected true or false");
   CHECK(faults_of("word = 1") == "f:1:8: 'word' is an integer, expected a text in quotes");
-  CHECK(faults_of("number = \"1\"") == "f:1:10: 'number' is a text, expected a number in m");
+  CHECK(faults_of("number = \"1\"") == "f:1:10: 'number' is a text ('1'), expected a number in m");
   CHECK(faults_of("number = 2020-01-01") == "f:1:10: 'number' is a date or time, expected a number in m");
   CHECK(faults_of("number = {}") == "f:1:10: 'number' is a table, expected a number in m");
   CHECK(faults_of("two = [1]") == "f:1:7: 'two' has an array of length 1, expected an array of 2 numbers in m");
   CHECK(faults_of("two = 5") == "f:1:7: 'two' has an integer, expected an array of 2 numbers in m");
-  CHECK(faults_of("three = [1, 2, \"c\"]") == "f:1:16: 'three' is a text, expected an array of 3 numbers in m");
+  CHECK(faults_of("three = [1, 2, \"c\"]") == "f:1:16: 'three' is a text ('c'), expected an array of 3 numbers in m");
   CHECK(faults_of("line = [[1, 2], [3]]") == "f:1:17: 'line' has an array of length 1, expected an array of [x, y] points in m");
   CHECK(faults_of("line = [1, 2]") == "f:1:9: 'line' has an integer, expected an array of [x, y] points in m");
   CHECK(faults_of("line = \"x\"") == "f:1:8: 'line' is a text, expected an array of [x, y] points in m");
@@ -228,7 +228,7 @@ TEST_CASE("unknown keys, with what may have been meant, and keys that are missin
   CHECK(read("word = \"x\"", strict).faults == "f:1:1: [strict] lacks the key 'number', expected a number in m, at least 0");
   CHECK(read("number = 1", strict).faults == "");
   // A required key that is there but wrong is told once.
-  CHECK(read("number = \"x\"", strict).faults == "f:1:10: 'number' is a text, expected a number in m, at least 0");
+  CHECK(read("number = \"x\"", strict).faults == "f:1:10: 'number' is a text ('x'), expected a number in m, at least 0");
 
   // Keys that are the caller's own are passed over.
   const auto document = parse_document("a = 1\nnumber = 2", "f");

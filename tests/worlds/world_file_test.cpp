@@ -204,7 +204,7 @@ TEST_CASE("broken files are told with their place, what is wrong and what was ex
        "w.toml:5:3: unknown key 'atenuation_db_per_m' in [material.NAME] (did you mean 'attenuation_db_per_m'?)"},
       {"unknown table", "[materials.fog]\n", "w.toml:4:2: unknown key 'materials' in world file (did you mean 'material'?)"},
       {"text for a number", "[[solid]]\ntype = \"sphere\"\nmaterial = \"wall\"\nradius_m = \"1 m\"\n",
-       "w.toml:7:12: 'radius_m' is a text, expected a number in m, above 0 and at most 1000000000"},
+       "w.toml:7:12: 'radius_m' is a text ('1 m'), expected a number in m, above 0 and at most 1000000000"},
       {"number for a text", "[[solid]]\ntype = \"sphere\"\nname = 5\nmaterial = \"wall\"\nradius_m = 1\n",
        "w.toml:6:8: 'name' is an integer, expected a text in quotes"},
       {"number for a flag", "[material.fog]\nstops_light = 1\n", "w.toml:5:15: 'stops_light' is an integer, expected true or false"},

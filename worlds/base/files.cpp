@@ -166,21 +166,24 @@ fs::path shipped_root() {
   return {};
 }
 
-fs::path find_input(const fs::path& name) {
-  if (name.empty() || is_input(name)) return name;
-  if (name.is_absolute()) return {};
-  std::vector<fs::path> places = {name};
-  if (const fs::path root = shipped_root(); !root.empty()) {
-    places.push_back(root / name);
-    places.push_back(root / "worlds" / "data" / name);
-  }
+fs::path find_shipped(const fs::path& name) {
+  const fs::path root = shipped_root();
+  if (name.empty() || name.is_absolute() || root.empty()) return {};
   for (const char* suffix : {"", ".toml"}) {
-    for (fs::path place : places) {
+    for (fs::path place : {root / name, root / "worlds" / "data" / name}) {
       place += suffix;
       if (is_input(place)) return place;
     }
   }
   return {};
+}
+
+fs::path find_input(const fs::path& name) {
+  if (name.empty() || is_input(name)) return name;
+  if (name.is_absolute()) return {};
+  fs::path with_suffix = name;
+  with_suffix += ".toml";
+  return is_input(with_suffix) ? with_suffix : find_shipped(name);
 }
 
 std::string portable_name(const fs::path& file) {

@@ -51,7 +51,8 @@ std::optional<double> read_number(const Node& node, const Key& key, Faults& faul
   } else if (const auto* real = std::get_if<double>(&node.content)) {
     number = *real;
   } else {
-    faults.add(node.place, fmt::format("'{}' is {}, expected {}", key.name, node.kind_in_words(), expectation(key)));
+    const auto* text = std::get_if<std::string>(&node.content);
+    faults.add(node.place, fmt::format("'{}' is {}{}, expected {}", key.name, node.kind_in_words(), text ? " ('" + *text + "')" : "", expectation(key)));
     return std::nullopt;
   }
   const bool finite_enough = std::isfinite(number) || (key.range.infinite && std::isinf(number));

@@ -23,6 +23,8 @@ std::filesystem::path shipped_root();
 
 /// `name` as it is if it exists; else, if it is relative, below `shipped_root()`, below its `worlds/data`, and then the same three with
 /// `.toml` added. A folder is not an input. Empty if there is no such file.
+/// The same without looking at `name` as it is: only what is shipped.
+std::filesystem::path find_shipped(const std::filesystem::path& name);
 std::filesystem::path find_input(const std::filesystem::path& name);
 
 /// How a file is named in a written mission: relative to `shipped_root()` if it lies there, else absolute.
