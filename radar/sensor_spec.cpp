@@ -129,13 +129,6 @@ SensorSpec read_sensor_at(const Node& entry, Faults& faults, int depth) {
 
 SensorSpec read_sensor(const Node& entry, Faults& faults) { return read_sensor_at(entry, faults, 0); }
 
-std::vector<std::string> sensor_presets() {
-  std::vector<std::string> names;
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(preset_folder(), none))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
+std::vector<std::string> sensor_presets() { return shipped_names("radar/presets"); }
 
 }  // namespace thicket

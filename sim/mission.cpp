@@ -282,13 +282,6 @@ Result<World> read_mission_world(const Mission& mission) {
   return read_world(mission.world_file, {mission.image_file, mission.world_unknown_is_matter, mission.world_height_m});
 }
 
-std::vector<std::string> vehicle_presets() {
-  std::vector<std::string> names;
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(vehicle_preset_folder(), none))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
+std::vector<std::string> vehicle_presets() { return shipped_names("sim/presets"); }
 
 }  // namespace thicket

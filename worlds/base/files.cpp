@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
@@ -184,6 +185,15 @@ fs::path find_input(const fs::path& name) {
   fs::path with_suffix = name;
   with_suffix += ".toml";
   return is_input(with_suffix) ? with_suffix : find_shipped(name);
+}
+
+std::vector<std::string> shipped_names(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(shipped_root() / folder, none))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 std::string portable_name(const fs::path& file) {

@@ -27,6 +27,9 @@ std::filesystem::path shipped_root();
 std::filesystem::path find_shipped(const std::filesystem::path& name);
 std::filesystem::path find_input(const std::filesystem::path& name);
 
+/// The names of the TOML files in a shipped folder ("radar/presets"), without their ending, sorted.
+std::vector<std::string> shipped_names(const std::filesystem::path& folder);
+
 /// How a file is named in a written mission: relative to `shipped_root()` if it lies there, else absolute.
 std::string portable_name(const std::filesystem::path& file);
 
