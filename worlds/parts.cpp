@@ -41,6 +41,9 @@ class PartMaker {
       add_box(position_, yaw_, {b.column * cell, b.row * cell, 0.0}, {(b.column + b.columns) * cell, (b.row + b.rows) * cell, m.height});
   }
 
+  void operator()(const Prism&) const {}
+  void operator()(const MeshSolid&) const {}
+
  private:
   void add_box(const glm::dvec3& frame, double yaw, const glm::dvec3& low, const glm::dvec3& high) const {
     parts_.boxes.push_back({index_, frame, std::cos(yaw), std::sin(yaw), low, high});

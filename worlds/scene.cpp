@@ -39,6 +39,10 @@ struct FiniteShape {
     return std::isfinite(w.thickness) && std::isfinite(w.height) && std::ranges::all_of(w.points, [](const glm::dvec2& p) { return finite({p, 0.0}); });
   }
   bool operator()(const MapSolid& m) const { return std::isfinite(m.grid.resolution) && std::isfinite(m.height); }
+  bool operator()(const Prism& p) const {
+    return std::isfinite(p.height) && std::ranges::all_of(p.outline, [](const glm::dvec2& q) { return finite({q, 0.0}); });
+  }
+  bool operator()(const MeshSolid& m) const { return std::isfinite(m.scale) && finite(m.mesh->low) && finite(m.mesh->high); }
 };
 
 bool traceable(const Ray& ray) { return finite(ray.origin) && std::abs(glm::length(ray.direction) - 1.0) <= 1e-6 && ray.range_max >= 0.0; }  // NaN fails

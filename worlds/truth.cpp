@@ -59,6 +59,8 @@ struct PlanDistance {
     }
     return least;
   }
+  double operator()(const Prism&) const { return none; }
+  double operator()(const MeshSolid&) const { return none; }
 };
 
 double plan_distance(const Solid& solid, const glm::dvec2& point, double z_low, double z_high) {

@@ -11,29 +11,50 @@
 namespace thicket {
 namespace {
 
-/// The plan of a shape: rectangle corners or centre lines, in the solid's frame, with the margin around them and the height range.
-struct Plan {
-  std::vector<glm::dvec2> points;
-  double margin = 0.0;
-  double z_low = 0.0, z_high = 0.0;
-  bool turns = true;  ///< whether the solid's yaw moves the points
+/// Points in the solid's frame whose hull, widened by `margin`, holds a shape.
+struct Skeleton {
+  std::vector<glm::dvec3> points;
+  glm::dvec3 margin{0.0};  ///< of a solid that stands upright
 };
 
-struct PlanOf {
-  Plan operator()(const Box& b) const {
-    const glm::dvec2 h = 0.5 * glm::dvec2(b.size);
-    return {{{-h.x, -h.y}, {h.x, -h.y}, {h.x, h.y}, {-h.x, h.y}}, 0.0, -0.5 * b.size.z, 0.5 * b.size.z};
+void add_box(std::vector<glm::dvec3>& points, const glm::dvec3& low, const glm::dvec3& high) {
+  for (const double x : {low.x, high.x})
+    for (const double y : {low.y, high.y})
+      for (const double z : {low.z, high.z}) points.emplace_back(x, y, z);
+}
+
+struct SkeletonOf {
+  Skeleton operator()(const Box& b) const {
+    Skeleton s;
+    add_box(s.points, -0.5 * b.size, 0.5 * b.size);
+    return s;
   }
-  Plan operator()(const Sphere& s) const { return {{{0.0, 0.0}}, s.radius, -s.radius, s.radius}; }
-  Plan operator()(const Cylinder& c) const { return {{{0.0, 0.0}}, c.radius, -0.5 * c.height, 0.5 * c.height}; }
-  Plan operator()(const Wall& w) const { return {w.points, 0.5 * w.thickness, 0.0, w.height}; }
-  Plan operator()(const MapSolid& m) const {
-    Plan plan{{}, 0.0, 0.0, m.height};
+  Skeleton operator()(const Sphere& s) const { return {{{0.0, 0.0, 0.0}}, glm::dvec3(s.radius)}; }
+  Skeleton operator()(const Cylinder& c) const { return {{{0.0, 0.0, -0.5 * c.height}, {0.0, 0.0, 0.5 * c.height}}, {c.radius, c.radius, 0.0}}; }
+  Skeleton operator()(const Wall& w) const {
+    Skeleton s;
+    for (const glm::dvec2& p : w.points)
+      for (const double z : {0.0, w.height}) s.points.emplace_back(p, z);
+    s.margin = {0.5 * w.thickness, 0.5 * w.thickness, 0.0};
+    return s;
+  }
+  Skeleton operator()(const MapSolid& m) const {
+    Skeleton s;
+    const double r = m.grid.resolution;
     for (const CellBlock& b : m.blocks)
-      for (const int i : {0, 1})
-        for (const int j : {0, 1})
-          plan.points.push_back(glm::dvec2(b.column + i * b.columns, b.row + j * b.rows) * m.grid.resolution);
-    return plan;
+      add_box(s.points, {b.column * r, b.row * r, 0.0}, {(b.column + b.columns) * r, (b.row + b.rows) * r, m.height});
+    return s;
+  }
+  Skeleton operator()(const Prism& p) const {
+    Skeleton s;
+    for (const glm::dvec2& q : p.outline)
+      for (const double z : {0.0, p.height}) s.points.emplace_back(q, z);
+    return s;
+  }
+  Skeleton operator()(const MeshSolid& m) const {
+    Skeleton s;
+    add_box(s.points, m.scale * m.mesh->low, m.scale * m.mesh->high);
+    return s;
   }
 };
 
@@ -41,13 +62,65 @@ struct PlanOf {
 
 Bounds join(const Bounds& a, const Bounds& b) { return {glm::min(a.low, b.low), glm::max(a.high, b.high)}; }
 
+glm::dmat3 rotation_of(const Solid& solid) {
+  const double cy = std::cos(solid.yaw), sy = std::sin(solid.yaw);
+  if (solid.upright()) return {cy, sy, 0.0, -sy, cy, 0.0, 0.0, 0.0, 1.0};
+  const double cp = std::cos(solid.pitch), sp = std::sin(solid.pitch), cr = std::cos(solid.roll), sr = std::sin(solid.roll);
+  return {cy * cp, sy * cp, -sp,  //
+          cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr,  //
+          cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr};
+}
+
+Solid solid_at(const Solid& solid, double time) {
+  Solid there = solid;
+  if (!solid.motion) return there;
+  const Motion& m = *solid.motion;
+  there.yaw = solid.yaw + m.spin * time;
+  std::vector<glm::dvec3> points = m.points;
+  if (points.empty()) return there;
+  if (m.mode == Motion::Mode::loop) points.push_back(points.front());
+  if (m.mode == Motion::Mode::back_and_forth)
+    for (std::size_t i = m.points.size() - 1; i-- > 0;) points.push_back(m.points[i]);
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += glm::distance(points[i - 1], points[i]);
+  double way = std::max(0.0, time - m.start_s) * m.speed;
+  if (m.mode != Motion::Mode::once && length > 0.0) way = std::fmod(way, length);
+  there.position = points.front();
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double leg = glm::distance(points[i - 1], points[i]);
+    if (way < leg) {
+      there.position = points[i - 1] + (way / leg) * (points[i] - points[i - 1]);
+      break;
+    }
+    way -= leg;
+    there.position = points[i];
+  }
+  return there;
+}
+
+World world_at(const World& world, double time) {
+  World there = world;
+  for (Solid& solid : there.solids) {
+    if (!solid.motion) continue;
+    solid = solid_at(solid, time);
+    solid.motion = nullptr;
+  }
+  return there;
+}
+
 Bounds extent(const Solid& solid) {
-  const Plan plan = std::visit(PlanOf{}, solid.shape);
-  const Pose2 frame{glm::dvec2(solid.position), solid.yaw};
+  const Skeleton skeleton = std::visit(SkeletonOf{}, solid.shape);
+  const glm::dmat3 turn = rotation_of(solid);
+  glm::dvec3 margin = skeleton.margin;
+  if (const auto* cylinder = std::get_if<Cylinder>(&solid.shape); cylinder && !solid.upright()) {
+    for (int i = 0; i < 3; ++i) margin[i] = cylinder->radius * std::sqrt(std::max(0.0, 1.0 - turn[2][i] * turn[2][i]));
+  } else if (!solid.upright()) {
+    margin = glm::dvec3(std::max({margin.x, margin.y, margin.z}));
+  }
   Bounds bounds{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
-  for (const glm::dvec2& p : plan.points) {
-    const glm::dvec2 q = frame.to_outer(p);
-    bounds = join(bounds, {glm::dvec3(q - plan.margin, solid.position.z + plan.z_low), glm::dvec3(q + plan.margin, solid.position.z + plan.z_high)});
+  for (const glm::dvec3& p : skeleton.points) {
+    const glm::dvec3 q = solid.position + turn * p;
+    bounds = join(bounds, {q - margin, q + margin});
   }
   return bounds;
 }
@@ -69,7 +142,7 @@ double half_width_between(const Solid& solid, double z_low, double z_high) {
     const double dz = std::max({0.0, z_low - solid.position.z, solid.position.z - z_high});
     return std::sqrt(std::max(0.0, sphere->radius * sphere->radius - dz * dz));
   }
-  if (const auto* cylinder = std::get_if<Cylinder>(&solid.shape)) return cylinder->radius;
+  if (const auto* cylinder = std::get_if<Cylinder>(&solid.shape); cylinder && solid.upright()) return cylinder->radius;
   return 0.5 * glm::length(glm::dvec2(box.high) - glm::dvec2(box.low));
 }
 

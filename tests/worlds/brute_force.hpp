@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -64,6 +65,8 @@ struct PiecesOf {
           block(placed(Vec2(Real(column) + Real(0.5), Real(row) + Real(0.5)) * cell), Vec2(cell / 2), turned({1, 0}, yaw), position.z,
                 position.z + Real(m.height));
   }
+  void operator()(const Prism&) { throw std::logic_error("no pieces of a prism"); }
+  void operator()(const MeshSolid&) { throw std::logic_error("no pieces of a mesh"); }
 };
 
 /// The pieces of a solid; a map cell by cell.

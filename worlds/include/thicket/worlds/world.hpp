@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -16,6 +18,7 @@
 #include "thicket/base/result.hpp"
 #include "thicket/base/schema.hpp"
 #include "thicket/worlds/material.hpp"
+#include "thicket/worlds/mesh.hpp"
 
 namespace thicket {
 
@@ -54,7 +57,31 @@ struct MapSolid {
   }
 };
 
-using Shape = std::variant<Box, Sphere, Cylinder, Wall, MapSolid>;
+/// A polygon, possibly with holes, extruded upward from the position's z. The outline and the holes are simple polygons of three points or more, in either
+/// direction, that do not meet one another; the first point is not repeated.
+struct Prism {
+  std::vector<glm::dvec2> outline;
+  std::vector<std::vector<glm::dvec2>> holes;
+  double height = 2.5;
+};
+/// A triangle mesh: a volume if it is closed, else a thin sheet of a thickness. `scale` is applied before the solid's pose.
+struct MeshSolid {
+  std::shared_ptr<const Mesh> mesh;
+  double scale = 1.0;
+  double sheet_thickness = 0.001;  ///< m, of an open mesh, whatever the scale
+};
+
+using Shape = std::variant<Box, Sphere, Cylinder, Wall, MapSolid, Prism, MeshSolid>;
+
+/// How a solid moves: along way-points at a constant speed, without turning but for its spin. A pure function of time.
+struct Motion {
+  enum class Mode : std::uint8_t { once, loop, back_and_forth };  ///< loop: from the last point straight to the first
+  std::vector<glm::dvec3> points;  ///< of the solid's position, one or more; at time start_s it is at the first
+  double speed = 1.0;              ///< m/s
+  double start_s = 0.0;            ///< before this it waits at the first point
+  double spin = 0.0;               ///< rad/s about its vertical axis, from time 0 on
+  Mode mode = Mode::once;
+};
 
 /// A shape with a material, somewhere. Where solids overlap, the highest attenuation counts, and motion stops if any of them stops it.
 struct Solid {
@@ -63,7 +90,17 @@ struct Solid {
   glm::dvec3 position{0.0, 0.0, 0.0};
   double yaw = 0.0;  ///< rad
   Shape shape;
+  double pitch = 0.0, roll = 0.0;  ///< rad, about the y and x axis; turned by roll first, then pitch, then yaw (REP 103). Not for walls and maps.
+  std::shared_ptr<const Motion> motion = nullptr;  ///< nothing: it stands still
+
+  bool upright() const { return pitch == 0.0 && roll == 0.0; }
 };
+
+/// From the solid's frame to the world's: the rotation without the position.
+glm::dmat3 rotation_of(const Solid& solid);
+
+/// The solid as it stands at a time, s: its position and yaw; the motion stays.
+Solid solid_at(const Solid& solid, double time);
 
 struct Bounds {
   glm::dvec3 low{0.0}, high{0.0};
@@ -78,11 +115,15 @@ struct World {
   std::optional<glm::dvec4> bounds;  ///< x_min, y_min, x_max, y_max as the file states them; `extent` tells what the solids take
   std::vector<Material> materials;
   std::vector<Solid> solids;
+  std::vector<std::string> notices;  ///< what a reader mended or assumed: open or flipped meshes and the like, a sentence each
 
   const Material& material_of(std::uint32_t solid) const { return materials[solids[solid].material]; }
 };
 
-/// The axis-aligned box that holds a solid, or all of them (nothing for an empty world).
+/// The world as it stands at a time; nothing in it moves.
+World world_at(const World& world, double time);
+
+/// An axis-aligned box that holds a solid (as it stands at time 0), or all of them (nothing for an empty world). Exact but for tilted meshes.
 Bounds extent(const Solid& solid);
 std::optional<Bounds> extent(const World& world);
 
