@@ -104,7 +104,7 @@ std::string describe_scene(const Scene& scene) {
   const World& world = scene.world();
   std::string text = fmt::format("world      {}\n", world.name);
   if (!world.source.empty()) text += fmt::format("source     {}\n", world.source);
-  text += fmt::format("solids     {} ({} convex parts)\n", world.solids.size(), scene.parts());
+  text += fmt::format("solids     {} ({} convex parts)\n", world.solids.size(), scene.figures().parts);
   for (std::size_t m = 0; m < world.materials.size(); ++m) {
     const Material& material = world.materials[m];
     const auto users = std::count_if(world.solids.begin(), world.solids.end(), [m](const Solid& s) { return s.material == m; });
@@ -113,7 +113,7 @@ std::string describe_scene(const Scene& scene) {
   }
   if (const auto box = extent(world))
     text += fmt::format("extent     x {:.2f} to {:.2f}, y {:.2f} to {:.2f}, z {:.2f} to {:.2f} m\n", box->low.x, box->high.x, box->low.y, box->high.y, box->low.z, box->high.z);
-  text += fmt::format("memory     {:.1f} MB in the ray tracer\n", static_cast<double>(scene.memory_bytes()) / 1e6);
+  text += fmt::format("memory     {:.1f} MB in the ray tracer\n", static_cast<double>(scene.figures().memory_bytes) / 1e6);
   return text;
 }
 

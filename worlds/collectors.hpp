@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "parts.hpp"
@@ -20,11 +21,44 @@ struct Matter {
   std::array<bool, 3> stops{};        ///< by `Stops`
 };
 
-/// A part that a lane met.
+struct Instance;
+
+/// A part that a lane met; of a mesh, a stretch between two triangles of its surface.
 struct PartCrossing {
   PartInterval interval;
   std::uint32_t solid = no_solid;
   std::uint32_t kind = 0, part = 0;
+  std::uint32_t leave_part = 0;        ///< the part that the leave face belongs to, of the same kind
+  const Instance* instance = nullptr;  ///< nothing: in the scene's frame
+};
+
+/// A triangle of a closed mesh that a lane met. Which of them begin and end a stretch is known only when all are.
+struct SurfaceHit {
+  double range;
+  std::uint32_t solid;
+  std::uint32_t triangle;
+  const Instance* instance;
+  bool enters;
+};
+/// Entrances first where ranges are equal: a ray that grazes an edge then enters before it leaves.
+struct BySolidAndRange {
+  bool operator()(const SurfaceHit& a, const SurfaceHit& b) const {
+    if (a.solid != b.solid) return a.solid < b.solid;
+    if (a.range != b.range) return a.range < b.range;
+    if (a.enters != b.enters) return a.enters;
+    return a.triangle < b.triangle;
+  }
+};
+
+/// How often closed meshes are wound around a point: the solids for which that is not 0. Inside of those for which it is positive.
+struct Windings {
+  std::vector<std::pair<std::uint32_t, int>> of;
+
+  int find(std::uint32_t solid) const {
+    for (const auto& [s, winding] : of)
+      if (s == solid) return winding;
+    return 0;
+  }
 };
 
 /// One total order of what is met at the same range.
@@ -78,6 +112,10 @@ struct Nearest {
     }
     return range[lane];
   }
+  double meet(unsigned lane, const SurfaceHit& hit, std::uint32_t kind) {
+    if (!hit.enters) return infinity;  // what a ray starts inside of is found by windings
+    return meet(lane, {{hit.range, infinity, 0, 0}, hit.solid, kind, hit.triangle, hit.triangle, hit.instance});
+  }
 };
 
 /// All parts as far as the budget reaches.
@@ -86,10 +124,12 @@ struct Gatherer {
   double budget_db;
   bool through_opaque;
   std::array<std::vector<PartCrossing>, packet> met{};
+  std::array<std::vector<SurfaceHit>, packet> surfaces{};
   std::array<double, packet> stop{};
 
   void reset() {
     for (auto& list : met) list.clear();
+    for (auto& list : surfaces) list.clear();
     stop.fill(infinity);
   }
   /// How far a ray gets inside a solid.
@@ -105,6 +145,12 @@ struct Gatherer {
     // the losses along the list must come to the same end, or he would go on where the list does not.
     const double end = std::max(0.0, crossing.interval.enter) + depth(crossing.solid);
     if (end * (1.0 + 1e-12) < crossing.interval.leave) stop[lane] = std::min(stop[lane], end);
+    return stop[lane];
+  }
+  double meet(unsigned lane, const SurfaceHit& hit, std::uint32_t) {
+    surfaces[lane].push_back(hit);
+    // How deep it is behind here is not known yet; only for opaque matter that does not matter.
+    if (hit.enters && depth(hit.solid) == 0.0) stop[lane] = std::min(stop[lane], hit.range);
     return stop[lane];
   }
 };

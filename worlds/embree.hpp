@@ -21,6 +21,12 @@ inline void intersect8(const int* valid, RTCScene scene, Context& context, RTCRa
   arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   rtcIntersect8(valid, scene, &rays, &arguments);
 }
+inline void intersect1(RTCScene scene, Context& context, RTCRayHit& ray) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  rtcIntersect1(scene, &ray, &arguments);
+}
 #else
 using Context = RTCIntersectContext;
 inline void start(Context& context) {
@@ -28,6 +34,7 @@ inline void start(Context& context) {
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
 }
 inline void intersect8(const int* valid, RTCScene scene, Context& context, RTCRayHit8& rays) { rtcIntersect8(valid, scene, &context, &rays); }
+inline void intersect1(RTCScene scene, Context& context, RTCRayHit& ray) { rtcIntersect1(scene, &context, &ray); }
 #endif
 
 }  // namespace thicket::embree

@@ -2,14 +2,19 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "thicket/worlds/world.hpp"
 
 namespace thicket {
+
+// A solid that stands upright and still is traced in the scene's frame; any other one, and every mesh, is a *prototype* in its own frame with an *instance*
+// for each pose.
 
 /// Where a ray is inside a part: ranges (either may be negative), and which face each end lies on, for `part_normal`.
 struct PartInterval {
@@ -39,10 +44,27 @@ struct Parts {
   std::vector<SpherePart> spheres;
   std::vector<CylinderPart> cylinders;
   std::vector<BoxPart> boxes;
+
+  std::size_t count() const { return spheres.size() + cylinders.size() + boxes.size(); }
 };
 
-/// Everything relative to `origin`.
-Parts make_parts(const World& world, const glm::dvec3& origin);
+/// Appends the parts of a solid that stands upright; nothing for a mesh or a prism. Everything relative to `origin`.
+void add_parts(const Solid& solid, std::uint32_t index, const glm::dvec3& origin, Parts& parts);
+
+/// Whether a solid is traced as an instance.
+bool needs_instance(const Solid& solid);
+
+/// Where an instance stands.
+struct Placing {
+  glm::dvec3 position{0.0};
+  glm::dmat3 turn{1.0};  ///< from the prototype's frame to the outer one
+  double scale = 1.0;    ///< not 1 for meshes only
+  bool upright = true;   ///< turned about the vertical axis at most
+
+  glm::dvec3 to_outer(const glm::dvec3& p) const { return position + turn * (scale * p); }
+  glm::dvec3 to_inner(const glm::dvec3& p) const { return (p - position) * turn / scale; }
+  glm::dvec3 direction_to_inner(const glm::dvec3& d) const { return d * turn / scale; }
+};
 
 Bounds part_bounds(const SpherePart& part);
 Bounds part_bounds(const CylinderPart& part);
@@ -52,5 +74,13 @@ Bounds part_bounds(const BoxPart& part);
 double axis_distance(const SpherePart& part, const glm::dvec2& position, double z_low, double z_high);
 double axis_distance(const CylinderPart& part, const glm::dvec2& position, double z_low, double z_high);
 double axis_distance(const BoxPart& part, const glm::dvec2& position, double z_low, double z_high);
+
+/// The same for a part of an instance that may be tilted.
+double axis_distance(const Placing& placing, const SpherePart& part, const glm::dvec2& position, double z_low, double z_high);
+double axis_distance(const Placing& placing, const CylinderPart& part, const glm::dvec2& position, double z_low, double z_high);
+double axis_distance(const Placing& placing, const BoxPart& part, const glm::dvec2& position, double z_low, double z_high);
+
+/// To a flat convex polygon of at most 8 corners, in order; 0 where the axis passes through it between the heights.
+double axis_distance(std::span<const glm::dvec3> polygon, const glm::dvec2& position, double z_low, double z_high);
 
 }  // namespace thicket

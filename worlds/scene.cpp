@@ -1,185 +1,180 @@
+// Building a scene, and its answers to rays.
 #include "thicket/worlds/scene.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <map>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "collectors.hpp"
-#include "embree.hpp"
 #include "part_rays.hpp"
+#include "scene_impl.hpp"
 
 namespace thicket {
 namespace {
-
-/// Single-precision numbers that are handed to Embree may be off by this part of the scene's size; bounds and limits are padded by it.
-constexpr double single_precision_slack = 1e-6;
-
-struct DeviceDeleter {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct SceneDeleter {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
 
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Whether the numbers of a shape are finite.
 struct FiniteShape {
+  static bool finite_points(const std::vector<glm::dvec2>& points) {
+    return std::ranges::all_of(points, [](const glm::dvec2& p) { return finite({p, 0.0}); });
+  }
   bool operator()(const Box& b) const { return finite(b.size); }
   bool operator()(const Sphere& s) const { return std::isfinite(s.radius); }
   bool operator()(const Cylinder& c) const { return std::isfinite(c.radius) && std::isfinite(c.height); }
-  bool operator()(const Wall& w) const {
-    return std::isfinite(w.thickness) && std::isfinite(w.height) && std::ranges::all_of(w.points, [](const glm::dvec2& p) { return finite({p, 0.0}); });
-  }
+  bool operator()(const Wall& w) const { return std::isfinite(w.thickness) && std::isfinite(w.height) && finite_points(w.points); }
   bool operator()(const MapSolid& m) const { return std::isfinite(m.grid.resolution) && std::isfinite(m.height); }
-  bool operator()(const Prism& p) const {
-    return std::isfinite(p.height) && std::ranges::all_of(p.outline, [](const glm::dvec2& q) { return finite({q, 0.0}); });
-  }
-  bool operator()(const MeshSolid& m) const { return std::isfinite(m.scale) && finite(m.mesh->low) && finite(m.mesh->high); }
+  bool operator()(const Prism& p) const { return std::isfinite(p.height) && finite_points(p.outline) && std::ranges::all_of(p.holes, finite_points); }
+  bool operator()(const MeshSolid& m) const { return m.mesh && m.scale > 0.0 && std::isfinite(m.scale) && std::isfinite(m.sheet_thickness) && finite(m.mesh->low) && finite(m.mesh->high); }
 };
+
+bool finite(const Solid& solid) {
+  const bool still = !solid.motion || (std::isfinite(solid.motion->speed) && std::isfinite(solid.motion->spin) && std::ranges::all_of(solid.motion->points, [](const glm::dvec3& p) { return finite(p); }));
+  return finite(solid.position) && finite({solid.yaw, solid.pitch, solid.roll}) && still && std::visit(FiniteShape{}, solid.shape);
+}
 
 bool traceable(const Ray& ray) { return finite(ray.origin) && std::abs(glm::length(ray.direction) - 1.0) <= 1e-6 && ray.range_max >= 0.0; }  // NaN fails
 
-/// One ray of a packet, in double precision, relative to the scene's origin.
-struct LaneRay {
-  glm::dvec3 origin{0.0}, direction{1.0, 0.0, 0.0};
-  double range_max = -1.0;
-  double shift = 0.0;  ///< how far along the ray Embree's own ray starts
-};
+/// How far a solid's matter reaches from its position.
+double reach_of(const Solid& solid) {
+  const Bounds box = extent(solid);
+  return glm::length(glm::max(glm::abs(box.low - solid.position), glm::abs(box.high - solid.position)));
+}
 
-}  // namespace
+/// What a solid takes at any time.
+Bounds whole_extent(const Solid& solid) {
+  if (!solid.motion) return extent(solid);
+  const double reach = reach_of(solid);
+  Bounds all{solid.position - reach, solid.position + reach};
+  for (const glm::dvec3& p : solid.motion->points) all = join(all, {p - reach, p + reach});
+  return all;
+}
 
-/// What Embree's bounds callbacks read.
-struct SceneParts {
-  double slack = 0.0;  ///< single-precision slack in metres
-  Parts parts;
-};
+// TEMPORARY
+std::shared_ptr<const Mesh> prism_mesh(const std::vector<glm::dvec2>&, const std::vector<std::vector<glm::dvec2>>&, double) { return make_mesh({}, {}); }
 
-struct Scene::Impl : SceneParts {
-  World world;
-  std::vector<Matter> matter;  ///< of every solid
-  glm::dvec3 origin{0.0};
-  Bounds box{glm::dvec3(0.0), glm::dvec3(0.0)};  ///< of all parts, padded, relative to the origin
-  double diagonal = 0.0;                         ///< of the box
-  std::size_t parts_count = 0;
-  std::atomic<std::ptrdiff_t> bytes{0};
-  std::unique_ptr<RTCDeviceTy, DeviceDeleter> device;
-  std::unique_ptr<RTCSceneTy, SceneDeleter> scene;
+/// The mesh that a solid is traced as, or nothing.
+std::shared_ptr<const Mesh> mesh_of(const Solid& solid) {
+  if (const auto* mesh = std::get_if<MeshSolid>(&solid.shape)) return mesh->mesh;
+  if (const auto* prism = std::get_if<Prism>(&solid.shape)) return prism_mesh(prism->outline, prism->holes, prism->height);
+  return nullptr;
+}
 
-  template <class Part>
-  void add_geometry(const std::vector<Part>& list);
+/// Makes the prototypes and instances of a world.
+class SceneBuilder {
+ public:
+  explicit SceneBuilder(Scene::Impl& impl) : impl_(impl) {}
 
-  /// Finds where a ray enters the scene's box (`lane.shift`), and how far Embree's ray goes from there. False if it misses the box.
-  bool enter(LaneRay& lane, float& far) const;
+  void build() {
+    for (std::uint32_t i = 0; i < impl_.world.solids.size(); ++i) {
+      const Solid& solid = impl_.world.solids[i];
+      if (needs_instance(solid)) add_instance(solid, i);
+      else add_parts(solid, i, impl_.origin, impl_.fixed.parts);
+    }
+    impl_.fixed.slack = impl_.slack;
+    for (const auto& prototype : impl_.prototypes) ::thicket::build(*prototype, impl_.device.get());
+    impl_.fixed.scene = new_scene(impl_.device.get());
+    attach(impl_.fixed, impl_.device.get(), impl_.fixed.scene.get());
+    attach(impl_.instances, impl_.device.get(), impl_.fixed.scene.get());
+    rtcCommitScene(impl_.fixed.scene.get());
+  }
 
-  /// Traces packet after packet; `consumer(ray, lane, lane_ray)` takes what `collector` has of each ray. Returns the number of rejected rays.
-  template <class Collect, class Consumer>
-  std::size_t trace(std::span<const Ray> rays, Collect& collector, Consumer&& consumer) const;
-
-  /// Makes one crossing of the parts of each solid that touch or overlap.
-  void join_parts(const LaneRay& lane, std::vector<PartCrossing>& met, double stop, std::vector<Crossing>& out) const;
-
-  template <class Use>
-  decltype(auto) with_part(std::uint32_t kind, std::uint32_t part, Use&& use) const {
-    switch (kind) {
-      case 0: return use(parts.spheres[part]);
-      case 1: return use(parts.cylinders[part]);
-      default: return use(parts.boxes[part]);
+ private:
+  void add_instance(const Solid& solid, std::uint32_t index) {
+    const auto* sheet = std::get_if<MeshSolid>(&solid.shape);
+    const double scale = sheet ? sheet->scale : 1.0;
+    Prototype* prototype = prototype_for(solid, index, scale);
+    if (!prototype) return;
+    const double thickness = sheet ? sheet->sheet_thickness : 0.0;
+    impl_.has_volumes = impl_.has_volumes || prototype->closed();
+    if (solid.motion) {
+      const double reach = reach_of(solid);
+      impl_.movers.push_back({prototype, index, thickness, reach});
+      impl_.fastest = std::max(impl_.fastest, (solid.motion->points.size() > 1 ? solid.motion->speed : 0.0) + std::abs(solid.motion->spin) * reach);
+    } else {
+      impl_.instances.push_back({prototype, index, thickness, placing_of(solid, prototype->centre, impl_.origin)});
     }
   }
 
-  glm::dvec3 normal(const LaneRay& lane, const PartCrossing& c, double range, int face) const {
-    return with_part(c.kind, c.part, [&](const auto& part) { return part_normal(part, lane.origin + range * lane.direction, face); });
+  /// A mesh that many solids share has one prototype. Nothing for a solid without matter.
+  Prototype* prototype_for(const Solid& solid, std::uint32_t index, double scale) {
+    const std::shared_ptr<const Mesh> mesh = mesh_of(solid);
+    Prototype*& shared = shared_[mesh.get()];
+    if (mesh && shared) {
+      shared->slack = std::max(shared->slack, padding(*shared, scale));
+      return shared;
+    }
+    auto prototype = std::make_unique<Prototype>();
+    if (mesh) {
+      if (mesh->triangles.empty()) return nullptr;
+      prototype->mesh = mesh;
+      prototype->centre = 0.5 * (mesh->low + mesh->high);
+      shared = prototype.get();
+    } else {
+      Solid own = solid;
+      own.position = glm::dvec3(0.0);
+      own.yaw = own.pitch = own.roll = 0.0;
+      add_parts(own, index, glm::dvec3(0.0), prototype->parts);
+      if (prototype->parts.count() == 0) return nullptr;
+    }
+    prototype->slack = padding(*prototype, scale);
+    impl_.prototypes.push_back(std::move(prototype));
+    return impl_.prototypes.back().get();
   }
-};
 
-namespace {
-
-template <class Part>
-const std::vector<Part>& parts_of(const Parts& parts) {
-  if constexpr (std::is_same_v<Part, SpherePart>) return parts.spheres;
-  else if constexpr (std::is_same_v<Part, CylinderPart>) return parts.cylinders;
-  else return parts.boxes;
-}
-template <class Part>
-constexpr std::uint32_t kind_of = std::is_same_v<Part, SpherePart> ? 0 : std::is_same_v<Part, CylinderPart> ? 1 : 2;
-
-/// What the intersect callbacks need to know of a packet; Embree hands it through. One of the two collectors is there.
-struct Query : embree::Context {
-  const Parts* parts = nullptr;
-  const LaneRay* lanes = nullptr;
-  Nearest* nearest = nullptr;
-  Gatherer* gatherer = nullptr;
-
-  void collect_in(Nearest& collector) { nearest = &collector; }
-  void collect_in(Gatherer& collector) { gatherer = &collector; }
-  double meet(unsigned lane, const PartCrossing& crossing) { return nearest ? nearest->meet(lane, crossing) : gatherer->meet(lane, crossing); }
-};
-
-template <class Part>
-void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
-  const auto& impl = *static_cast<const SceneParts*>(arguments->geometryUserPtr);
-  const Bounds bounds = part_bounds(parts_of<Part>(impl.parts)[arguments->primID]);
-  const glm::vec3 low(bounds.low - impl.slack), high(bounds.high + impl.slack);
-  *arguments->bounds_o = {low.x, low.y, low.z, 0.0f, high.x, high.y, high.z, 0.0f};
-}
-
-/// Solves the part for every active ray in double precision. No hit is ever accepted: the collector keeps what it wants, and only the far end of the
-/// ray is drawn in, so that Embree skips what lies behind.
-template <class Part>
-void intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
-  auto& query = *static_cast<Query*>(arguments->context);
-  RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
-  const Part& part = parts_of<Part>(*query.parts)[arguments->primID];
-  for (unsigned i = 0; i < arguments->N; ++i) {
-    if (arguments->valid[i] != -1) continue;
-    const unsigned lane_index = RTCRayN_id(rays, arguments->N, i);
-    const LaneRay& lane = query.lanes[lane_index];
-    PartCrossing crossing;
-    if (!cross(part, lane.origin, lane.direction, crossing.interval)) continue;
-    // A part that is left at 0 counts where another part of its solid goes on from there: the ray then starts inside.
-    if (!(crossing.interval.leave >= 0.0) || crossing.interval.enter > lane.range_max) continue;
-    crossing.solid = part.solid;
-    crossing.kind = kind_of<Part>;
-    crossing.part = arguments->primID;
-    const double limit = query.meet(lane_index, crossing) - lane.shift;
-    float& far = RTCRayN_tfar(rays, arguments->N, i);
-    // Rounded up, so that what lies at the same range is still met and ties are settled by order and not by chance.
-    const double padded = std::max(0.0, limit + std::abs(limit) * single_precision_slack + 1e-30);
-    if (padded < static_cast<double>(far)) far = static_cast<float>(padded);
+  /// Embree's own single-precision ray is off by the scene's slack, in the units of the prototype, and so are the prototype's bounds.
+  double padding(const Prototype& prototype, double scale) const {
+    double size = 0.0;
+    if (prototype.mesh) size = glm::length(prototype.mesh->high - prototype.mesh->low);
+    return 4.0 * impl_.slack / scale + single_precision_slack * size;
   }
-}
+
+  Scene::Impl& impl_;
+  std::map<const Mesh*, Prototype*> shared_;
+};
 
 }  // namespace
 
-template <class Part>
-void Scene::Impl::add_geometry(const std::vector<Part>& list) {
-  if (list.empty()) return;
-  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(list.size()));
-  rtcSetGeometryUserData(geometry, static_cast<SceneParts*>(this));
-  rtcSetGeometryBoundsFunction(geometry, &bounds_callback<Part>, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, &intersect_callback<Part>);
-  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene.get(), geometry, kind_of<Part>);
-  rtcReleaseGeometry(geometry);
+Placing placing_of(const Solid& solid, const glm::dvec3& centre, const glm::dvec3& origin) {
+  Placing placing;
+  placing.turn = rotation_of(solid);
+  placing.upright = solid.upright();
+  if (const auto* mesh = std::get_if<MeshSolid>(&solid.shape)) placing.scale = mesh->scale;
+  placing.position = (solid.position - origin) + placing.turn * (placing.scale * centre);
+  return placing;
+}
+
+glm::dvec3 Scene::Impl::normal(const LaneRay& lane, const PartCrossing& c, double range, std::uint32_t part, int face) const {
+  const glm::dvec3 point = lane.origin + range * lane.direction;
+  if (!c.instance) return fixed.with_part(c.kind, part, [&](const auto& p) { return part_normal(p, point, face); });
+  const Prototype& prototype = *c.instance->prototype;
+  const Placing& placing = c.instance->placing;
+  if (c.kind == triangle_kind) {
+    const auto [a, b, d] = prototype.corners(part);
+    const glm::dvec3 outward = placing.turn * glm::normalize(glm::cross(b - a, d - a));
+    // A sheet has no outside: its normals are against the ray where it is entered, and along it where it is left.
+    if (prototype.closed()) return outward;
+    const bool along = glm::dot(outward, lane.direction) > 0.0, leaves = range > c.interval.enter;
+    return along == leaves ? outward : -outward;
+  }
+  return placing.turn * prototype.with_part(c.kind, part, [&](const auto& p) { return part_normal(p, placing.to_inner(point), face); });
 }
 
 bool Scene::Impl::enter(LaneRay& lane, float& far) const {
   if (glm::all(glm::lessThanEqual(box.low, lane.origin)) && glm::all(glm::lessThanEqual(lane.origin, box.high))) {
     // Most rays start inside, and there is nothing behind the diagonal.
+    lane.to_end = lane.range_max >= diagonal;
     far = static_cast<float>(std::min(lane.range_max, diagonal) * (1.0 + single_precision_slack) + slack);
     return true;
   }
-  double near = 0.0, end = lane.range_max;
+  double near = 0.0, end = infinity;
   for (int axis = 0; axis < 3; ++axis) {
     const double o = lane.origin[axis], d = lane.direction[axis];
     if (d == 0.0) {
@@ -190,6 +185,8 @@ bool Scene::Impl::enter(LaneRay& lane, float& far) const {
     near = std::max(near, std::min(a, b));
     end = std::min(end, std::max(a, b));
   }
+  lane.to_end = end <= lane.range_max;
+  end = std::min(end, lane.range_max);
   if (!(near <= end)) return false;
   lane.shift = near;
   far = static_cast<float>((end - near) * (1.0 + single_precision_slack) + slack);
@@ -197,12 +194,11 @@ bool Scene::Impl::enter(LaneRay& lane, float& far) const {
 }
 
 template <class Collect, class Consumer>
-std::size_t Scene::Impl::trace(std::span<const Ray> rays, Collect& collector, Consumer&& consumer) const {
+std::size_t Scene::Impl::trace(std::span<const Ray> rays, const Moving* moving, Collect& collector, Consumer&& consumer) const {
   std::size_t rejected = 0;
   std::array<LaneRay, packet> lanes;
   Query query;
   embree::start(query);
-  query.parts = &parts;
   query.lanes = lanes.data();
   query.collect_in(collector);
   for (std::size_t first = 0; first < rays.size(); first += packet) {
@@ -219,8 +215,8 @@ std::size_t Scene::Impl::trace(std::span<const Ray> rays, Collect& collector, Co
         if (!traceable(ray)) {
           ++rejected;
         } else {
-          lanes[i] = {ray.origin - origin, ray.direction, ray.range_max, 0.0};
-          if (parts_count > 0 && enter(lanes[i], far)) valid[i] = -1;
+          lanes[i] = {ray.origin - origin, ray.direction, ray.range_max, 0.0, false};
+          if (!empty() && enter(lanes[i], far)) valid[i] = -1;
           any = any || valid[i];
         }
       }
@@ -239,21 +235,82 @@ std::size_t Scene::Impl::trace(std::span<const Ray> rays, Collect& collector, Co
       batch.ray.id[i] = i;
       batch.ray.flags[i] = 0;
       batch.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      batch.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
     collector.reset();
-    if (any) embree::intersect8(valid, scene.get(), query, batch);
+    query.kept_for = nullptr;  // the rays are others
+    if (any) {
+      query.instances = &instances;
+      embree::intersect8(valid, fixed.scene.get(), query, batch);
+      if (moving) {
+        query.instances = &moving->instances;
+        embree::intersect8(valid, moving->scene.get(), query, batch);  // with the rays as far as they are still wanted
+      }
+    }
     for (unsigned i = 0; i < packet && first + i < rays.size(); ++i) consumer(first + i, i, lanes[i]);
   }
   return rejected;
 }
 
+Windings Scene::Impl::windings(const glm::dvec3& point, const Moving* moving) const {
+  // Any line from the point tells; this one leaves most scenes soon, and lies along no wall.
+  constexpr glm::dvec3 up(0.36, 0.48, 0.8);
+  LaneRay lane{point, up, infinity, 0.0, false};
+  Windings answer;
+  float far = 0.0f;
+  if (!has_volumes || !enter(lane, far)) return answer;
+  Gatherer gatherer{matter, infinity, true};
+  std::array<LaneRay, packet> lanes;
+  lanes[0] = lane;
+  Query query;
+  embree::start(query);
+  query.lanes = lanes.data();
+  query.surfaces_only = true;
+  query.collect_in(gatherer);
+  const auto through = [&](RTCScene scene, const std::vector<Instance>& in) {
+    query.instances = &in;
+    RTCRayHit ray{};
+    const glm::vec3 start(lane.origin + lane.shift * up), along(up);
+    ray.ray = {start.x, start.y, start.z, 0.0f, along.x, along.y, along.z, 0.0f, far, ~0u, 0, 0};
+    ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    embree::intersect1(scene, query, ray);
+  };
+  through(fixed.scene.get(), instances);
+  if (moving) through(moving->scene.get(), moving->instances);
+  std::vector<SurfaceHit>& hits = gatherer.surfaces[0];
+  std::sort(hits.begin(), hits.end(), BySolidAndRange{});
+  for (std::size_t i = 0; i < hits.size();) {
+    const std::uint32_t solid = hits[i].solid;
+    int winding = 0;
+    for (; i < hits.size() && hits[i].solid == solid; ++i) winding += hits[i].enters ? -1 : 1;
+    if (winding != 0) answer.of.emplace_back(solid, winding);
+  }
+  return answer;
+}
+
+Instance Scene::Impl::stand(const Mover& mover, double time) const {
+  const Solid& solid = world.solids[mover.solid];
+  const Standing there = standing_at(solid, time);
+  Instance instance{mover.prototype, mover.solid, mover.sheet_thickness, {}};
+  // As placing_of, without a copy of the solid.
+  instance.placing.turn = rotation_of(there.yaw, solid.pitch, solid.roll);
+  instance.placing.upright = solid.upright();
+  if (const auto* mesh = std::get_if<MeshSolid>(&solid.shape)) instance.placing.scale = mesh->scale;
+  instance.placing.position = (there.position - origin) + instance.placing.turn * (instance.placing.scale * mover.prototype->centre);
+  return instance;
+}
+
 Result<Scene> Scene::build(World world) {
+  const auto start = std::chrono::steady_clock::now();
   auto impl = std::make_shared<Impl>();
   impl->world = std::move(world);
-  for (const Solid& solid : impl->world.solids)
-    if (!finite(solid.position) || !std::isfinite(solid.yaw) || !std::visit(FiniteShape{}, solid.shape))
-      return Error{fmt::format("solid '{}' has a position, yaw or size that is not finite", solid.name)};
-  if (const auto all = extent(impl->world)) {
+  std::optional<Bounds> all;
+  for (const Solid& solid : impl->world.solids) {
+    if (!finite(solid)) return Error{fmt::format("solid '{}' has a position, angle or size that is not finite, or a scale that is not above 0", solid.name)};
+    const Bounds one = whole_extent(solid);
+    if (one.low.x <= one.high.x) all = all ? join(*all, one) : one;
+  }
+  if (all) {
     impl->origin = 0.5 * (all->low + all->high);
     const glm::dvec3 half = 0.5 * (all->high - all->low);
     if (!finite(impl->origin) || !finite(half)) return Error{"the world's extent is not finite"};
@@ -265,8 +322,6 @@ Result<Scene> Scene::build(World world) {
     const Material& m = impl->world.materials[solid.material];
     impl->matter.push_back({m.attenuation_db_per_m, {true, m.stops_light, m.stops_motion}});
   }
-  impl->parts = make_parts(impl->world, impl->origin);
-  impl->parts_count = impl->parts.spheres.size() + impl->parts.cylinders.size() + impl->parts.boxes.size();
 
   impl->device.reset(rtcNewDevice(nullptr));
   if (!impl->device) return Error{fmt::format("Embree could not be started (error {})", static_cast<int>(rtcGetDeviceError(nullptr)))};
@@ -277,40 +332,127 @@ Result<Scene> Scene::build(World world) {
         return true;
       },
       &impl->bytes);
-  impl->scene.reset(rtcNewScene(impl->device.get()));
-  rtcSetSceneFlags(impl->scene.get(), RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(impl->scene.get(), RTC_BUILD_QUALITY_MEDIUM);
-  impl->add_geometry(impl->parts.spheres);
-  impl->add_geometry(impl->parts.cylinders);
-  impl->add_geometry(impl->parts.boxes);
-  rtcCommitScene(impl->scene.get());
+  SceneBuilder(*impl).build();
   if (const RTCError error = rtcGetDeviceError(impl->device.get()); error != RTC_ERROR_NONE)
-    return Error{fmt::format("Embree could not build the scene (error {})", static_cast<int>(error))};
-  return Scene(std::move(impl));
+    return Error{fmt::format("Embree could not build the scene (error {}{})", static_cast<int>(error), error == RTC_ERROR_OUT_OF_MEMORY ? ": out of memory" : "")};
+  impl->build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  Scene scene(std::move(impl));
+  scene.set_time(0.0);
+  return scene;
 }
 
 const World& Scene::world() const { return impl_->world; }
-std::size_t Scene::memory_bytes() const { return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, impl_->bytes)); }
-std::size_t Scene::parts() const { return impl_->parts_count; }
+bool Scene::moves() const { return !impl_->movers.empty(); }
+double Scene::fastest() const { return impl_->fastest; }
+
+SceneFigures Scene::figures() const {
+  SceneFigures figures{impl_->fixed.parts.count(), 0, impl_->instances.size() + impl_->movers.size(), impl_->movers.size(),
+                       static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, impl_->bytes)), impl_->build_s};
+  for (const auto& prototype : impl_->prototypes) {
+    figures.parts += prototype->parts.count();
+    if (prototype->mesh) figures.triangles += prototype->mesh->triangles.size();
+  }
+  return figures;
+}
+
+void Scene::set_time(double time) {
+  const bool same = moving_ && time == time_;
+  time_ = time;
+  if (impl_->movers.empty() || same) return;
+  const bool ours = moving_ && moving_.use_count() == 1;
+  if (!ours) moving_ = std::make_shared<Moving>();
+  moving_->instances.clear();
+  for (const Mover& mover : impl_->movers) moving_->instances.push_back(impl_->stand(mover, time));
+  if (ours) {
+    update(moving_->instances, moving_->scene.get());
+  } else {
+    moving_->scene = new_scene(impl_->device.get());
+    attach(moving_->instances, impl_->device.get(), moving_->scene.get());
+  }
+  rtcCommitScene(moving_->scene.get());
+}
 
 std::size_t Scene::closest_hits(std::span<const Ray> rays, Stops stops, std::span<Hit> hits) const {
   Nearest nearest{impl_->matter, stops};
-  return impl_->trace(rays, nearest, [&](std::size_t ray, unsigned lane, const LaneRay& lane_ray) {
+  glm::dvec3 from(NAN);  // where the windings are of: rays of one scan start at one place
+  Windings around;
+  return impl_->trace(rays, moving_.get(), nearest, [&](std::size_t ray, unsigned lane, const LaneRay& lane_ray) {
     Hit& hit = hits[ray];
     hit = Hit{};
-    if (nearest.range[lane] == infinity) return;
+    if (impl_->has_volumes && lane_ray.range_max >= 0.0) {
+      if (lane_ray.origin != from) around = impl_->windings(from = lane_ray.origin, moving_.get());
+      for (const auto& [solid, winding] : around.of)
+        if (winding > 0 && impl_->matter[solid].stops[static_cast<std::size_t>(stops)]) {
+          hit = {0.0, solid, -lane_ray.direction};
+          return;
+        }
+    }
+    if (nearest.range[lane] == infinity || nearest.range[lane] > lane_ray.range_max) return;
     const PartCrossing& met = nearest.best[lane];
     hit.range = nearest.range[lane];
     hit.solid = met.solid;
-    hit.normal = met.interval.enter > 0.0 ? impl_->normal(lane_ray, met, hit.range, met.interval.enter_face) : -lane_ray.direction;
+    hit.normal = met.interval.enter > 0.0 || met.kind == triangle_kind ? impl_->normal(lane_ray, met, hit.range, met.part, met.interval.enter_face) : -lane_ray.direction;
   });
 }
+
+namespace {
+
+/// Makes stretches of the surfaces of closed meshes, and appends them. `to_end`: no surface on the ray is missing.
+template <class WindingAtStart>
+void pair_surfaces(std::vector<SurfaceHit>& hits, bool to_end, WindingAtStart&& winding_at_start, double range_max, std::vector<PartCrossing>& out) {
+  std::sort(hits.begin(), hits.end(), BySolidAndRange{});
+  for (std::size_t i = 0; i < hits.size();) {
+    const std::uint32_t solid = hits[i].solid;
+    std::size_t end = i;
+    int sum = 0;
+    for (; end < hits.size() && hits[end].solid == solid; ++end) sum += hits[end].enters ? 1 : -1;
+    // A closed mesh is left as often as it is entered, so what is left too often was started inside of.
+    int winding = to_end ? -sum : winding_at_start(solid);
+    PartCrossing open;
+    const auto begin = [&](double range, const SurfaceHit& at) {
+      open = {{range, infinity, 0, 0}, solid, triangle_kind, at.triangle, at.triangle, at.instance};
+    };
+    if (winding > 0) begin(-infinity, hits[i]);
+    int owed = 0;  // exits that came before their entrances by rounding
+    for (; i < end; ++i) {
+      const SurfaceHit& hit = hits[i];
+      if (hit.enters) {
+        if (owed > 0 && winding == 0) {
+          --owed;
+        } else if (++winding == 1) {
+          begin(hit.range, hit);
+        }
+      } else if (winding == 0) {
+        ++owed;
+      } else if (--winding == 0) {
+        open.interval.leave = hit.range;
+        open.leave_part = hit.triangle;
+        if (open.interval.leave > std::max(0.0, open.interval.enter) && open.interval.enter <= range_max) out.push_back(open);
+      }
+    }
+    if (winding > 0 && open.interval.enter <= range_max) out.push_back(open);  // it is left somewhere behind what was looked at
+  }
+}
+
+}  // namespace
 
 std::size_t Scene::crossings(std::span<const Ray> rays, double budget_db, CrossingLists& lists, bool through_opaque) const {
   lists.items.clear();
   lists.first.assign(1, 0);
   Gatherer gatherer{impl_->matter, budget_db, through_opaque};
-  return impl_->trace(rays, gatherer, [&](std::size_t, unsigned lane, const LaneRay& lane_ray) {
+  glm::dvec3 from(NAN);
+  Windings around;
+  return impl_->trace(rays, moving_.get(), gatherer, [&](std::size_t, unsigned lane, const LaneRay& lane_ray) {
+    if (impl_->has_volumes && lane_ray.range_max >= 0.0) {
+      const bool to_end = lane_ray.to_end && gatherer.stop[lane] == infinity;
+      if (!to_end && lane_ray.origin != from) around = impl_->windings(from = lane_ray.origin, moving_.get());
+      pair_surfaces(gatherer.surfaces[lane], to_end, [&](std::uint32_t solid) { return around.find(solid); }, lane_ray.range_max, gatherer.met[lane]);
+      // What the ray starts inside of and leaves behind everything that was looked at.
+      if (!to_end)
+        for (const auto& [solid, winding] : around.of)
+          if (winding > 0 && std::ranges::none_of(gatherer.surfaces[lane], [s = solid](const SurfaceHit& hit) { return hit.solid == s; }))
+            gatherer.met[lane].push_back({{-infinity, infinity, 0, 0}, solid, triangle_kind, 0, 0, nullptr});
+    }
     impl_->join_parts(lane_ray, gatherer.met[lane], gatherer.stop[lane], lists.items);
     lists.first.push_back(static_cast<std::uint32_t>(lists.items.size()));
   });
@@ -335,8 +477,8 @@ void Scene::Impl::join_parts(const LaneRay& lane, std::vector<PartCrossing>& met
     crossing.starts_inside = first.interval.enter < 0.0;
     crossing.enter = std::max(0.0, first.interval.enter);
     crossing.leave = last->interval.leave;
-    if (!crossing.starts_inside) crossing.enter_normal = normal(lane, first, crossing.enter, first.interval.enter_face);
-    crossing.leave_normal = normal(lane, *last, crossing.leave, last->interval.leave_face);
+    if (!crossing.starts_inside) crossing.enter_normal = normal(lane, first, crossing.enter, first.part, first.interval.enter_face);
+    if (crossing.leave < infinity) crossing.leave_normal = normal(lane, *last, crossing.leave, last->leave_part, last->interval.leave_face);
   }
   if (one_part_each) return;
   std::sort(out.begin() + static_cast<std::ptrdiff_t>(begin), out.end(), [](const Crossing& a, const Crossing& b) {
@@ -344,60 +486,6 @@ void Scene::Impl::join_parts(const LaneRay& lane, std::vector<PartCrossing>& met
     if (a.leave != b.leave) return a.leave < b.leave;
     return a.solid < b.solid;
   });
-}
-
-Clearance Scene::clearance(const Hull& hull, const glm::dvec3& position, double limit) const {
-  Clearance answer;
-  const glm::dvec3 at = position - impl_->origin;
-  if (impl_->parts_count == 0 || !finite(at) || !(limit >= 0.0)) return answer;
-  const double z_low = at.z + hull.z_low, z_high = at.z + hull.z_high;
-
-  // Beyond the far corner of the box there is nothing: a limit that reaches that far is as good as an infinite one, and finite.
-  const glm::dvec2 to_far_corner = glm::max(glm::abs(glm::dvec2(at) - glm::dvec2(impl_->box.low)), glm::abs(glm::dvec2(at) - glm::dvec2(impl_->box.high)));
-  double best = std::min(limit + hull.radius, glm::length(to_far_corner));
-
-  struct State {
-    const Impl& impl;
-    glm::dvec2 axis;
-    double z_low, z_high, half_height;
-    double slack;
-    double best;
-    std::uint32_t solid = no_solid;
-    float radius() const {
-      const double across = std::max(0.0, best);
-      return static_cast<float>(std::sqrt(across * across + half_height * half_height) + slack);
-    }
-  };
-  // Single precision is asked for a point and a radius that are off by no more than the slack that is added.
-  const double slack = 4.0 * impl_->slack + single_precision_slack * (glm::length(at) + best);
-  State state{*impl_, glm::dvec2(at), z_low, z_high, 0.5 * (z_high - z_low), slack, best};
-
-  RTCPointQuery query;
-  query.x = static_cast<float>(at.x);
-  query.y = static_cast<float>(at.y);
-  query.z = static_cast<float>(0.5 * (z_low + z_high));
-  query.time = 0.0f;
-  query.radius = state.radius();
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(
-      impl_->scene.get(), &query, &context,
-      [](RTCPointQueryFunctionArguments* arguments) {
-        State& s = *static_cast<State*>(arguments->userPtr);
-        return s.impl.with_part(arguments->geomID, arguments->primID, [&](const auto& part) {
-          if (!s.impl.matter[part.solid].stops[static_cast<std::size_t>(Stops::motion)]) return false;
-          const double distance = axis_distance(part, s.axis, s.z_low, s.z_high);
-          const bool nearer = distance < s.best || (distance == s.best && part.solid < s.solid);
-          if (!nearer) return false;
-          s.best = distance;
-          s.solid = part.solid;
-          arguments->query->radius = s.radius();
-          return true;
-        });
-      },
-      &state);
-  if (state.solid != no_solid) answer = {state.best - hull.radius, state.solid};
-  return answer;
 }
 
 }  // namespace thicket

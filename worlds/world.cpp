@@ -62,38 +62,40 @@ struct SkeletonOf {
 
 Bounds join(const Bounds& a, const Bounds& b) { return {glm::min(a.low, b.low), glm::max(a.high, b.high)}; }
 
-glm::dmat3 rotation_of(const Solid& solid) {
-  const double cy = std::cos(solid.yaw), sy = std::sin(solid.yaw);
-  if (solid.upright()) return {cy, sy, 0.0, -sy, cy, 0.0, 0.0, 0.0, 1.0};
-  const double cp = std::cos(solid.pitch), sp = std::sin(solid.pitch), cr = std::cos(solid.roll), sr = std::sin(solid.roll);
+glm::dmat3 rotation_of(double yaw, double pitch, double roll) {
+  const double cy = std::cos(yaw), sy = std::sin(yaw);
+  if (pitch == 0.0 && roll == 0.0) return {cy, sy, 0.0, -sy, cy, 0.0, 0.0, 0.0, 1.0};
+  const double cp = std::cos(pitch), sp = std::sin(pitch), cr = std::cos(roll), sr = std::sin(roll);
   return {cy * cp, sy * cp, -sp,  //
           cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr,  //
           cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr};
 }
 
-Solid solid_at(const Solid& solid, double time) {
-  Solid there = solid;
-  if (!solid.motion) return there;
+Standing standing_at(const Solid& solid, double time) {
+  if (!solid.motion) return {solid.position, solid.yaw};
   const Motion& m = *solid.motion;
-  there.yaw = solid.yaw + m.spin * time;
-  std::vector<glm::dvec3> points = m.points;
-  if (points.empty()) return there;
-  if (m.mode == Motion::Mode::loop) points.push_back(points.front());
-  if (m.mode == Motion::Mode::back_and_forth)
-    for (std::size_t i = m.points.size() - 1; i-- > 0;) points.push_back(m.points[i]);
-  double length = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) length += glm::distance(points[i - 1], points[i]);
+  Standing there{solid.position, solid.yaw + m.spin * time};
+  if (m.points.empty()) return there;
+  // The way as legs: there, and for the modes that go on for ever back to the first point.
+  const std::size_t count = m.points.size(), legs = m.mode == Motion::Mode::once ? count - 1 : m.mode == Motion::Mode::loop ? count : 2 * (count - 1);
+  const auto point = [&](std::size_t i) { return m.points[i < count ? i : m.mode == Motion::Mode::loop ? i - count : 2 * (count - 1) - i]; };
+  there.position = m.points.front();
   double way = std::max(0.0, time - m.start_s) * m.speed;
-  if (m.mode != Motion::Mode::once && length > 0.0) way = std::fmod(way, length);
-  there.position = points.front();
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const double leg = glm::distance(points[i - 1], points[i]);
+  if (m.mode != Motion::Mode::once) {
+    double length = 0.0;
+    for (std::size_t i = 0; i < legs; ++i) length += glm::distance(point(i), point(i + 1));
+    if (!(length > 0.0)) return there;
+    way = std::fmod(way, length);
+  }
+  for (std::size_t i = 0; i < legs; ++i) {
+    const glm::dvec3 from = point(i), to = point(i + 1);
+    const double leg = glm::distance(from, to);
     if (way < leg) {
-      there.position = points[i - 1] + (way / leg) * (points[i] - points[i - 1]);
+      there.position = from + (way / leg) * (to - from);
       break;
     }
     way -= leg;
-    there.position = points[i];
+    there.position = to;
   }
   return there;
 }
@@ -102,7 +104,9 @@ World world_at(const World& world, double time) {
   World there = world;
   for (Solid& solid : there.solids) {
     if (!solid.motion) continue;
-    solid = solid_at(solid, time);
+    const Standing standing = standing_at(solid, time);
+    solid.position = standing.position;
+    solid.yaw = standing.yaw;
     solid.motion = nullptr;
   }
   return there;

@@ -114,8 +114,8 @@ TEST_CASE("crossings are what brute force finds") {
   Dice dice(1);
   const World world = jumble(dice, 300).world;
   const Scene scene = traced(world);
-  CHECK(scene.parts() == 300);
-  CHECK(scene.memory_bytes() > 0);
+  CHECK(scene.figures().parts == 300);
+  CHECK(scene.figures().memory_bytes > 0);
   const auto rays = rays_through(dice, 20000);
   const auto lists = all_crossings(scene, rays);
   const auto pieces = brute::pieces_of(world);
@@ -425,7 +425,7 @@ TEST_CASE("rejected rays are counted and meet nothing") {
 
 TEST_CASE("an empty world is open everywhere") {
   const Scene scene = traced(World{});
-  CHECK(scene.parts() == 0);
+  CHECK(scene.figures().parts == 0);
   Dice dice(6);
   const auto rays = rays_through(dice, 20);
   CHECK(all_crossings(scene, rays).items.empty());

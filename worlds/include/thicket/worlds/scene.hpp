@@ -1,8 +1,10 @@
-// A world made traceable. The one place that knows Embree.
+// A world made traceable. Only scene*.cpp knows Embree.
 //
 // Rays and answers are spans of plain data in double precision. Inside, everything is relative to the scene's own origin, so that a world at 10^6 m
 // is as exact as one at 0; Embree's single precision only decides which solids a ray can meet (with bounds padded for its rounding), and every distance is
 // then solved in double precision. An answer depends on its own ray alone: not on the other rays of the span, on packets or on threads.
+//
+// A scene is a value: copies share everything but the poses of moving solids, which `set_time` gives.
 #pragma once
 
 #include <algorithm>
@@ -75,12 +77,35 @@ struct Clearance {
   std::uint32_t solid = no_solid;
 };
 
+/// Where a hull is, and when.
+struct Moment {
+  glm::dvec3 position{0.0};
+  double time = 0.0;
+};
+
+/// What a scene is made of and what it took.
+struct SceneFigures {
+  std::size_t parts = 0;         ///< convex parts that are traced in closed form
+  std::size_t triangles = 0;     ///< of meshes and prisms, each mesh counted once however often it stands
+  std::size_t instances = 0;     ///< poses of meshes, of tilted and of moving solids
+  std::size_t moving = 0;        ///< of these, the moving ones
+  std::size_t memory_bytes = 0;  ///< of the acceleration structure, as Embree reports it
+  double build_s = 0.0;          ///< wall time
+};
+
 class Scene {
  public:
-  /// Builds the acceleration structure; the world is kept. Fails if Embree does, or if a solid's numbers are not finite.
+  /// Builds the acceleration structure; the world is kept. Fails if Embree does, or if a solid's numbers are not finite. Moving solids stand where they are at time 0.
   static Result<Scene> build(World world);
 
   const World& world() const;
+
+  /// Puts moving solids where they are at a time, s; costs nothing where nothing moves. Copies of this scene stay as they are.
+  void set_time(double time);
+  double time() const { return time_; }
+  bool moves() const;
+  /// The greatest speed of any point of a moving solid, m/s; 0 where nothing moves.
+  double fastest() const;
 
   /// hits[i] becomes the first surface on rays[i] of matter that stops what is named. Returns how many rays were rejected.
   std::size_t closest_hits(std::span<const Ray> rays, Stops stops, std::span<Hit> hits) const;
@@ -90,24 +115,27 @@ class Scene {
   /// to range_max. Returns how many rays were rejected.
   std::size_t crossings(std::span<const Ray> rays, double budget_db, CrossingLists& lists, bool through_opaque = false) const;
 
-  /// Clearance of the hull at a position (world x, y and the z that the hull stands on), as far as `limit`.
-  Clearance clearance(const Hull& hull, const glm::dvec3& position, double limit) const;
+  /// Clearance of the hull at a position (world x, y and the z that the hull stands on), as far as `limit`, at the scene's time or another one.
+  Clearance clearance(const Hull& hull, const glm::dvec3& position, double limit) const { return clearance(hull, Moment{position, time_}, limit); }
+  Clearance clearance(const Hull& hull, const Moment& moment, double limit) const;
 
-  /// The first contact of a hull that moves along a path: `position_at(s)` for s in [0, length], moving at most 1 m per metre of s. Conservative advancement:
-  /// each step goes as far as the clearance allows, so that nothing is tunnelled through, however thin or fast. Returns the s of contact
+  /// The first contact of a hull that moves along a path: `position_at(s)` for s in [0, length] gives a position or a `Moment`. Hull and solids together move at most
+  /// 1 m per metre of s. Conservative advancement: each step goes as far as the clearance allows, so that nothing is tunnelled through, however thin or fast. Returns the s of contact
   /// (clearance below 1e-6 m), or +inf. `nearest` becomes the clearance that was seen last or at the contact, and `least` the least along the way
   /// (both looked for as far as `limit`).
   template <class Path>
   double first_contact(const Hull& hull, Path&& position_at, double length, double limit, Clearance& nearest, double& least) const;
 
-  /// Bytes that the acceleration structure takes, as Embree reports them, and the number of traced parts.
-  std::size_t memory_bytes() const;
-  std::size_t parts() const;
+  SceneFigures figures() const;
+
+  struct Impl;    // scene_impl.hpp, not for others
+  struct Moving;
 
  private:
-  struct Impl;
   explicit Scene(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
-  std::shared_ptr<const Impl> impl_;  // immutable: copies share it
+  std::shared_ptr<const Impl> impl_;      // immutable: copies share it
+  std::shared_ptr<Moving> moving_;        // what moves, as it stands at time_; changed only by its sole owner
+  double time_ = 0.0;
 };
 
 template <class Path>

@@ -97,10 +97,15 @@ struct Solid {
 };
 
 /// From the solid's frame to the world's: the rotation without the position.
-glm::dmat3 rotation_of(const Solid& solid);
+glm::dmat3 rotation_of(double yaw, double pitch, double roll);
+inline glm::dmat3 rotation_of(const Solid& solid) { return rotation_of(solid.yaw, solid.pitch, solid.roll); }
 
-/// The solid as it stands at a time, s: its position and yaw; the motion stays.
-Solid solid_at(const Solid& solid, double time);
+/// Where a solid stands at a time, s; always the same for one that does not move.
+struct Standing {
+  glm::dvec3 position{0.0};
+  double yaw = 0.0;  ///< rad
+};
+Standing standing_at(const Solid& solid, double time);
 
 struct Bounds {
   glm::dvec3 low{0.0}, high{0.0};

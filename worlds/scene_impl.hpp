@@ -1,0 +1,64 @@
+// What a scene holds. Private to scene*.cpp.
+#pragma once
+
+#include <atomic>
+
+#include "scene_layer.hpp"
+
+namespace thicket {
+
+/// A solid that moves, in its prototype's frame.
+struct Mover {
+  const Prototype* prototype = nullptr;
+  std::uint32_t solid = no_solid;
+  double sheet_thickness = 0.0;
+  double reach = 0.0;  ///< of its matter from its position, m
+};
+
+struct Scene::Impl {
+  World world;
+  std::vector<Matter> matter;  ///< of every solid
+  glm::dvec3 origin{0.0};
+  Bounds box{glm::dvec3(0.0), glm::dvec3(0.0)};  ///< of all there is at any time, padded, relative to the origin
+  double diagonal = 0.0;                         ///< of the box
+  double slack = 0.0;
+  bool has_volumes = false;  ///< closed meshes, which a ray or a hull can be inside of
+  double build_s = 0.0, fastest = 0.0;
+  std::atomic<std::ptrdiff_t> bytes{0};
+  Device device;
+  std::vector<std::unique_ptr<Prototype>> prototypes;
+  Prototype fixed;                  ///< parts in the scene's frame, and the Embree scene of all that stands still
+  std::vector<Instance> instances;  ///< that stand still
+  std::vector<Mover> movers;
+
+  bool empty() const { return fixed.parts.count() == 0 && instances.empty() && movers.empty(); }
+
+  /// Finds where a ray enters the scene's box (`lane.shift`), and how far Embree's ray goes from there. False if it misses the box.
+  bool enter(LaneRay& lane, float& far) const;
+
+  /// Traces packet after packet; `consumer(ray, lane, lane_ray)` takes what `collector` has of each ray. Returns the number of rejected rays.
+  template <class Collect, class Consumer>
+  std::size_t trace(std::span<const Ray> rays, const Moving* moving, Collect& collector, Consumer&& consumer) const;
+
+  /// The closed meshes that a point (relative to the origin) is inside of.
+  Windings windings(const glm::dvec3& point, const Moving* moving) const;
+
+  /// Makes crossings of the parts of each solid that touch or overlap.
+  void join_parts(const LaneRay& lane, std::vector<PartCrossing>& met, double stop, std::vector<Crossing>& out) const;
+
+  /// Where a mover stands at a time.
+  Instance stand(const Mover& mover, double time) const;
+
+  glm::dvec3 normal(const LaneRay& lane, const PartCrossing& c, double range, std::uint32_t part, int face) const;
+};
+
+/// The moving solids at one time.
+struct Scene::Moving {
+  std::vector<Instance> instances;
+  EmbreeScene scene;
+};
+
+/// Where a solid of a mesh, tilted or moving, stands; `centre` is its prototype's.
+Placing placing_of(const Solid& solid, const glm::dvec3& centre, const glm::dvec3& origin);
+
+}  // namespace thicket
