@@ -84,6 +84,11 @@ class SceneBuilder {
     attach(impl_.fixed, impl_.device.get(), impl_.fixed.scene.get());
     attach(impl_.instances, impl_.device.get(), impl_.fixed.scene.get());
     rtcCommitScene(impl_.fixed.scene.get());
+    if (impl_.instances.empty()) return;
+    impl_.contact = new_scene(impl_.device.get());
+    attach(impl_.fixed, impl_.device.get(), impl_.contact.get());
+    attach_boxes(impl_.instances, impl_.slack, impl_.device.get(), impl_.contact.get());
+    rtcCommitScene(impl_.contact.get());
   }
 
  private:
@@ -252,40 +257,70 @@ std::size_t Scene::Impl::trace(std::span<const Ray> rays, const Moving* moving, 
   return rejected;
 }
 
-Windings Scene::Impl::windings(const glm::dvec3& point, const Moving* moving) const {
-  // Any line from the point tells; this one leaves most scenes soon, and lies along no wall.
-  constexpr glm::dvec3 up(0.36, 0.48, 0.8);
-  LaneRay lane{point, up, infinity, 0.0, false};
-  Windings answer;
-  float far = 0.0f;
-  if (!has_volumes || !enter(lane, far)) return answer;
-  Gatherer gatherer{matter, infinity, true};
-  std::array<LaneRay, packet> lanes;
-  lanes[0] = lane;
-  Query query;
-  embree::start(query);
-  query.lanes = lanes.data();
-  query.surfaces_only = true;
-  query.collect_in(gatherer);
-  const auto through = [&](RTCScene scene, const std::vector<Instance>& in) {
-    query.instances = &in;
+namespace {
+
+/// Any line from a point tells what it is inside of; this one leaves most scenes soon, and lies along no wall.
+constexpr glm::dvec3 upward(0.36, 0.48, 0.8);
+
+/// Collects the closed meshes along that line.
+class WindingCount {
+ public:
+  WindingCount(const std::vector<Matter>& matter, const LaneRay& lane) : gatherer_{matter, infinity, true} {
+    lanes_[0] = lane;
+    gatherer_.reset();
+    embree::start(query_);
+    query_.lanes = lanes_.data();
+    query_.surfaces_only = true;
+    query_.collect_in(gatherer_);
+  }
+
+  void through(RTCScene scene, const std::vector<Instance>* instances, const Instance* inside_of, const glm::dvec3& origin, const glm::dvec3& direction, float far) {
+    query_.instances = instances;
+    query_.inside_of = inside_of;
     RTCRayHit ray{};
-    const glm::vec3 start(lane.origin + lane.shift * up), along(up);
+    const glm::vec3 start(origin), along(direction);
     ray.ray = {start.x, start.y, start.z, 0.0f, along.x, along.y, along.z, 0.0f, far, ~0u, 0, 0};
     ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    embree::intersect1(scene, query, ray);
-  };
-  through(fixed.scene.get(), instances);
-  if (moving) through(moving->scene.get(), moving->instances);
-  std::vector<SurfaceHit>& hits = gatherer.surfaces[0];
-  std::sort(hits.begin(), hits.end(), BySolidAndRange{});
-  for (std::size_t i = 0; i < hits.size();) {
-    const std::uint32_t solid = hits[i].solid;
-    int winding = 0;
-    for (; i < hits.size() && hits[i].solid == solid; ++i) winding += hits[i].enters ? -1 : 1;
-    if (winding != 0) answer.of.emplace_back(solid, winding);
+    embree::intersect1(scene, query_, ray);
   }
-  return answer;
+
+  Windings windings() {
+    std::vector<SurfaceHit>& hits = gatherer_.surfaces[0];
+    std::sort(hits.begin(), hits.end(), BySolidAndRange{});
+    Windings answer;
+    for (std::size_t i = 0; i < hits.size();) {
+      const std::uint32_t solid = hits[i].solid;
+      int winding = 0;
+      for (; i < hits.size() && hits[i].solid == solid; ++i) winding += hits[i].enters ? -1 : 1;
+      if (winding != 0) answer.of.emplace_back(solid, winding);
+    }
+    return answer;
+  }
+
+ private:
+  Gatherer gatherer_;
+  std::array<LaneRay, packet> lanes_;
+  Query query_;
+};
+
+}  // namespace
+
+Windings Scene::Impl::windings(const glm::dvec3& point, const Moving* moving) const {
+  LaneRay lane{point, upward, infinity, 0.0, false};
+  float far = 0.0f;
+  if (!has_volumes || !enter(lane, far)) return {};
+  WindingCount count(matter, lane);
+  const glm::dvec3 start = point + lane.shift * upward;
+  count.through(fixed.scene.get(), &instances, nullptr, start, upward, far);
+  if (moving) count.through(moving->scene.get(), &moving->instances, nullptr, start, upward, far);
+  return count.windings();
+}
+
+Windings Scene::Impl::windings_in(const Instance& instance, const glm::dvec3& point) const {
+  WindingCount count(matter, {point, upward, infinity, 0.0, false});
+  const Placing& p = instance.placing;
+  count.through(instance.prototype->scene.get(), nullptr, &instance, p.to_inner(point), p.direction_to_inner(upward), std::numeric_limits<float>::max());
+  return count.windings();
 }
 
 Instance Scene::Impl::stand(const Mover& mover, double time) const {
@@ -397,9 +432,11 @@ std::size_t Scene::closest_hits(std::span<const Ray> rays, Stops stops, std::spa
 
 namespace {
 
-/// Makes stretches of the surfaces of closed meshes, and appends them. `to_end`: no surface on the ray is missing.
+constexpr double touching = 1e-9;  // m
+
+/// Makes stretches of the surfaces of closed meshes, and appends them; what is left behind the limit is left at infinity. `to_end`: no surface on the ray is missing.
 template <class WindingAtStart>
-void pair_surfaces(std::vector<SurfaceHit>& hits, bool to_end, WindingAtStart&& winding_at_start, double range_max, std::vector<PartCrossing>& out) {
+void pair_surfaces(std::vector<SurfaceHit>& hits, bool to_end, WindingAtStart&& winding_at_start, double limit, std::vector<PartCrossing>& out) {
   std::sort(hits.begin(), hits.end(), BySolidAndRange{});
   for (std::size_t i = 0; i < hits.size();) {
     const std::uint32_t solid = hits[i].solid;
@@ -413,6 +450,14 @@ void pair_surfaces(std::vector<SurfaceHit>& hits, bool to_end, WindingAtStart&& 
       open = {{range, infinity, 0, 0}, solid, triangle_kind, at.triangle, at.triangle, at.instance};
     };
     if (winding > 0) begin(-infinity, hits[i]);
+    const std::size_t first_out = out.size();
+    const auto close = [&](const PartCrossing& stretch) {
+      // Pieces of one mesh that touch have no gap between them but for rounding.
+      const bool goes_on = out.size() > first_out && stretch.interval.enter - out.back().interval.leave <= touching;
+      if (!goes_on) return out.push_back(stretch);
+      out.back().interval.leave = stretch.interval.leave;
+      out.back().leave_part = stretch.leave_part;
+    };
     int owed = 0;  // exits that came before their entrances by rounding
     for (; i < end; ++i) {
       const SurfaceHit& hit = hits[i];
@@ -425,12 +470,13 @@ void pair_surfaces(std::vector<SurfaceHit>& hits, bool to_end, WindingAtStart&& 
       } else if (winding == 0) {
         ++owed;
       } else if (--winding == 0) {
-        open.interval.leave = hit.range;
+        // Behind the limit it is chance which surfaces were met.
+        open.interval.leave = hit.range <= limit ? hit.range : infinity;
         open.leave_part = hit.triangle;
-        if (open.interval.leave > std::max(0.0, open.interval.enter) && open.interval.enter <= range_max) out.push_back(open);
+        if (open.interval.leave > std::max(0.0, open.interval.enter) && open.interval.enter <= limit) close(open);
       }
     }
-    if (winding > 0 && open.interval.enter <= range_max) out.push_back(open);  // it is left somewhere behind what was looked at
+    if (winding > 0 && open.interval.enter <= limit) close(open);  // it is left somewhere behind what was looked at
   }
 }
 
@@ -446,7 +492,7 @@ std::size_t Scene::crossings(std::span<const Ray> rays, double budget_db, Crossi
     if (impl_->has_volumes && lane_ray.range_max >= 0.0) {
       const bool to_end = lane_ray.to_end && gatherer.stop[lane] == infinity;
       if (!to_end && lane_ray.origin != from) around = impl_->windings(from = lane_ray.origin, moving_.get());
-      pair_surfaces(gatherer.surfaces[lane], to_end, [&](std::uint32_t solid) { return around.find(solid); }, lane_ray.range_max, gatherer.met[lane]);
+      pair_surfaces(gatherer.surfaces[lane], to_end, [&](std::uint32_t solid) { return around.find(solid); }, std::min(lane_ray.range_max, gatherer.stop[lane]), gatherer.met[lane]);
       // What the ray starts inside of and leaves behind everything that was looked at.
       if (!to_end)
         for (const auto& [solid, winding] : around.of)

@@ -20,8 +20,8 @@ struct Search {
   double slack;                        ///< how much Embree's single-precision sphere is widened
   const std::vector<Instance>* instances = nullptr;
   const Prototype* fixed = nullptr;
-  const Instance* inside_of = nullptr;
   std::uint32_t solid = no_solid;
+  const Instance* inside_of = nullptr;  ///< the instance whose prototype is being asked
 
   /// Of the sphere about the middle of the axis that holds everything nearer than the best.
   double radius() const {
@@ -53,18 +53,7 @@ struct Search {
   }
 };
 
-bool look_callback(RTCPointQueryFunctionArguments* arguments) {
-  Search& search = *static_cast<Search*>(arguments->userPtr);
-  const RTCPointQueryContext& context = *arguments->context;
-  const Instance* instance = context.instStackSize > 0 ? &(*search.instances)[context.instID[0] - instance_kind] : search.inside_of;
-  if (!search.look(instance, arguments->geomID, arguments->primID)) return false;
-  // In an instance the query's radius is still the one outside of it, but where a prototype is asked by itself.
-  const double scale = search.inside_of ? search.inside_of->placing.scale : 1.0;
-  arguments->query->radius = static_cast<float>(search.radius() / scale);
-  return true;
-}
-
-void ask(RTCScene scene, const glm::dvec3& middle, double radius, Search& search) {
+void ask(RTCScene scene, const glm::dvec3& middle, double radius, RTCPointQueryFunction look, Search& search) {
   RTCPointQuery query;
   query.x = static_cast<float>(middle.x);
   query.y = static_cast<float>(middle.y);
@@ -73,7 +62,35 @@ void ask(RTCScene scene, const glm::dvec3& middle, double radius, Search& search
   query.radius = static_cast<float>(radius);
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(scene, &query, &context, &look_callback, &search);
+  rtcPointQuery(scene, &query, &context, look, &search);
+}
+
+glm::dvec3 middle_of(const Search& search) { return {search.axis, 0.5 * (search.z_low + search.z_high)}; }
+double inner_radius(const Search& search, const Instance& instance) { return search.radius() / instance.placing.scale + instance.prototype->slack; }
+
+bool look_in_prototype(RTCPointQueryFunctionArguments* arguments) {
+  Search& search = *static_cast<Search*>(arguments->userPtr);
+  if (!search.look(search.inside_of, arguments->geomID, arguments->primID)) return false;
+  arguments->query->radius = static_cast<float>(inner_radius(search, *search.inside_of));
+  return true;
+}
+
+/// Asks the prototype of an instance, in its own frame. True if something nearer was there.
+bool look_in_instance(const Instance& instance, Search& search) {
+  if (!search.matter[instance.solid].stops[static_cast<std::size_t>(Stops::motion)]) return false;
+  const double before = search.best;
+  const std::uint32_t solid = search.solid;
+  search.inside_of = &instance;
+  ask(instance.prototype->scene.get(), instance.placing.to_inner(middle_of(search)), inner_radius(search, instance), &look_in_prototype, search);
+  return search.best < before || search.solid != solid;
+}
+
+bool look_in_scene(RTCPointQueryFunctionArguments* arguments) {
+  Search& search = *static_cast<Search*>(arguments->userPtr);
+  const bool instance = arguments->geomID == instance_kind;
+  if (!(instance ? look_in_instance((*search.instances)[arguments->primID], search) : search.look(nullptr, arguments->geomID, arguments->primID))) return false;
+  arguments->query->radius = static_cast<float>(search.radius());
+  return true;
 }
 
 }  // namespace
@@ -91,25 +108,22 @@ Clearance Scene::clearance(const Hull& hull, const Moment& moment, double limit)
   Search search{impl_->matter, glm::dvec2(at), z_low, z_high, best, 4.0 * impl_->slack + single_precision_slack * (glm::length(at) + best)};
   search.instances = &impl_->instances;
   search.fixed = &impl_->fixed;
-  const glm::dvec3 middle(search.axis, 0.5 * (z_low + z_high));
-  ask(impl_->fixed.scene.get(), middle, search.radius(), search);
-
-  for (const Mover& mover : impl_->movers) {
-    if (!impl_->matter[mover.solid].stops[static_cast<std::size_t>(Stops::motion)]) continue;
-    // At the moment's own time, which need not be the scene's: the way of a step is looked at in between.
-    const Instance instance = impl_->stand(mover, moment.time);
-    search.inside_of = &instance;
-    ask(mover.prototype->scene.get(), instance.placing.to_inner(middle), (search.radius() + mover.prototype->slack) / instance.placing.scale, search);
-  }
+  ask(impl_->contact ? impl_->contact.get() : impl_->fixed.scene.get(), middle_of(search), search.radius(), &look_in_scene, search);
 
   // A hull with its axis inside a closed mesh may be far from any of its triangles.
-  if (impl_->has_volumes) {
-    for (const auto& [solid, winding] : impl_->windings(middle, moving_.get()).of) {
-      if (winding <= 0 || !impl_->matter[solid].stops[static_cast<std::size_t>(Stops::motion)]) continue;
-      search.best = std::min(search.best, 0.0);
-      if (search.solid == no_solid || search.best == 0.0) search.solid = solid;
-      if (search.best > -infinity) answer = {search.best - hull.radius, search.solid};
+  const auto inside = [&](const Windings& windings) {
+    for (const auto& [solid, winding] : windings.of) {
+      if (winding <= 0 || search.best <= 0.0 || !impl_->matter[solid].stops[static_cast<std::size_t>(Stops::motion)]) continue;
+      search.best = 0.0;
+      search.solid = solid;
     }
+  };
+  if (impl_->has_volumes) inside(impl_->windings(middle_of(search), nullptr));
+  for (const Mover& mover : impl_->movers) {
+    // At the moment's own time, which need not be the scene's: the way of a step is looked at in between.
+    const Instance standing = impl_->stand(mover, moment.time);
+    look_in_instance(standing, search);
+    if (mover.prototype->closed()) inside(impl_->windings_in(standing, middle_of(search)));
   }
   if (search.solid != no_solid) answer = {search.best - hull.radius, search.solid};
   return answer;

@@ -29,6 +29,7 @@ struct Scene::Impl {
   std::vector<std::unique_ptr<Prototype>> prototypes;
   Prototype fixed;                  ///< parts in the scene's frame, and the Embree scene of all that stands still
   std::vector<Instance> instances;  ///< that stand still
+  EmbreeScene contact;              ///< where there are instances, the same for hulls: parts, and a box for each instance, whose prototype is then asked by itself
   std::vector<Mover> movers;
 
   bool empty() const { return fixed.parts.count() == 0 && instances.empty() && movers.empty(); }
@@ -42,6 +43,8 @@ struct Scene::Impl {
 
   /// The closed meshes that a point (relative to the origin) is inside of.
   Windings windings(const glm::dvec3& point, const Moving* moving) const;
+  /// The same for one instance alone.
+  Windings windings_in(const Instance& instance, const glm::dvec3& point) const;
 
   /// Makes crossings of the parts of each solid that touch or overlap.
   void join_parts(const LaneRay& lane, std::vector<PartCrossing>& met, double stop, std::vector<Crossing>& out) const;

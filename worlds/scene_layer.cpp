@@ -1,6 +1,7 @@
 #include "scene_layer.hpp"
 
 #include <cmath>
+#include <map>
 
 #include <glm/common.hpp>
 
@@ -164,6 +165,55 @@ void attach(const std::vector<Instance>& instances, RTCDevice device, RTCScene s
     rtcAttachGeometryByID(scene, geometry, instance_kind + i);
     rtcReleaseGeometry(geometry);
   }
+}
+
+namespace {
+
+/// The box that holds what a prototype has.
+Bounds bounds_of(const Prototype& prototype) {
+  if (prototype.mesh) return {prototype.mesh->low - prototype.centre, prototype.mesh->high - prototype.centre};
+  Bounds all{glm::dvec3(infinity), glm::dvec3(-infinity)};
+  const auto take = [&all](const auto& parts) {
+    for (const auto& part : parts) all = join(all, part_bounds(part));
+  };
+  take(prototype.parts.spheres);
+  take(prototype.parts.cylinders);
+  take(prototype.parts.boxes);
+  return all;
+}
+
+}  // namespace
+
+void attach_boxes(const std::vector<Instance>& instances, double slack, RTCDevice device, RTCScene scene) {
+  if (instances.empty()) return;
+  // Kept by the geometry until the scene is built.
+  struct Boxes {
+    std::vector<Bounds> of;
+    double slack;
+  } boxes{{}, slack};
+  std::map<const Prototype*, Bounds> inner;
+  for (const Instance& instance : instances) {
+    const auto found = inner.try_emplace(instance.prototype).first;
+    if (found->second.low == found->second.high) found->second = bounds_of(*instance.prototype);
+    const Bounds& b = found->second;
+    const Placing& p = instance.placing;
+    const glm::dvec3 middle = p.to_outer(0.5 * (b.low + b.high)), half = 0.5 * p.scale * (b.high - b.low);
+    const glm::dvec3 reach = glm::abs(p.turn[0]) * half.x + glm::abs(p.turn[1]) * half.y + glm::abs(p.turn[2]) * half.z;
+    boxes.of.push_back({middle - reach, middle + reach});
+  }
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes.of.size()));
+  rtcSetGeometryUserData(geometry, &boxes);
+  const RTCBoundsFunction bounds = [](const RTCBoundsFunctionArguments* arguments) {
+    const auto& from = *static_cast<const Boxes*>(arguments->geometryUserPtr);
+    give_bounds(from.of[arguments->primID], from.slack, *arguments->bounds_o);
+  };
+  rtcSetGeometryBoundsFunction(geometry, bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, [](const RTCIntersectFunctionNArguments*) {});
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, instance_kind);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene);  // while the boxes are there
 }
 
 void update(const std::vector<Instance>& instances, RTCScene scene) {

@@ -80,11 +80,14 @@ inline bool meet(const ShearedRay& ray, const glm::dvec3& a, const glm::dvec3& b
   const int way = edge_sign(p, q);
   if (way == 0 || edge_sign(q, r) != way || edge_sign(r, p) != way) return false;
   hit.enters = way < 0;
-  // A mean of the corners' depths: never nearer or farther than the triangle is, however thin it is.
-  const double weight_a = q.x * r.y - q.y * r.x, weight_b = r.x * p.y - r.y * p.x, weight_c = p.x * q.y - p.y * q.x;
-  const double sum = weight_a + weight_b + weight_c;
-  const double depth = sum != 0.0 ? (weight_a * p.z + weight_b * q.z + weight_c * r.z) / sum : p.z;
-  hit.range = depth / ray.direction[ray.z];
+  // By the plane, which is the same for all triangles of a flat face; but never nearer or farther than the corners are, however thin the triangle.
+  const glm::dvec3 normal = glm::cross(b - a, c - a);
+  const double slope = glm::dot(normal, ray.direction);
+  const auto [nearest, farthest] = std::minmax({p.z, q.z, r.z});
+  const double along = ray.direction[ray.z];
+  const double by_plane = slope != 0.0 ? glm::dot(normal, a - ray.origin) / slope * along : nearest;
+  const double depth = std::clamp(by_plane, nearest, farthest);
+  hit.range = depth / along;
   const double doubtful = 1e-9 * std::max({std::abs(p.z), std::abs(q.z), std::abs(r.z)});
   if (std::abs(depth) > doubtful) return hit.range > 0.0;
   // The origin is on the triangle, or nearly: decided by the plane alone, so that all rays from here agree on what they start inside of.
