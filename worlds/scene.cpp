@@ -263,7 +263,7 @@ Result<Scene> Scene::build(World world) {
   }
   for (const Solid& solid : impl->world.solids) {
     const Material& m = impl->world.materials[solid.material];
-    impl->matter.push_back({m.attenuation_db_per_m, {true, m.stops_light, m.stops_motion}});
+    impl->matter.push_back({solid.material, {true, m.stops_light, m.stops_motion}});
   }
   impl->parts = make_parts(impl->world, impl->origin);
   impl->parts_count = impl->parts.spheres.size() + impl->parts.cylinders.size() + impl->parts.boxes.size();
@@ -307,9 +307,13 @@ std::size_t Scene::closest_hits(std::span<const Ray> rays, Stops stops, std::spa
 }
 
 std::size_t Scene::crossings(std::span<const Ray> rays, double budget_db, CrossingLists& lists, bool through_opaque) const {
+  return crossings(rays, impl_->world.materials, budget_db, lists, through_opaque);
+}
+
+std::size_t Scene::crossings(std::span<const Ray> rays, std::span<const Material> materials, double budget_db, CrossingLists& lists, bool through_opaque) const {
   lists.items.clear();
   lists.first.assign(1, 0);
-  Gatherer gatherer{impl_->matter, budget_db, through_opaque};
+  Gatherer gatherer{impl_->matter, materials, budget_db, through_opaque};
   return impl_->trace(rays, gatherer, [&](std::size_t, unsigned lane, const LaneRay& lane_ray) {
     impl_->join_parts(lane_ray, gatherer.met[lane], gatherer.stop[lane], lists.items);
     lists.first.push_back(static_cast<std::uint32_t>(lists.items.size()));
