@@ -23,7 +23,8 @@ struct Event {
 /// The wave on its way: what is left of it and where it is.
 class Wave {
  public:
-  Wave(const World& world, std::span<const Crossing> crossings, const EchoLimits& limits) : world_(world), crossings_(crossings), limits_(limits) {}
+  Wave(const World& world, std::span<const Material> materials, std::span<const Crossing> crossings, const EchoLimits& limits)
+      : world_(world), materials_(materials), crossings_(crossings), limits_(limits) {}
 
   /// The crossing that counts among those that are active; crossings come in a fixed order, so ties are settled the same way every time.
   std::size_t strongest(const std::vector<std::size_t>& active) const {
@@ -32,7 +33,7 @@ class Wave {
       if (best == open_space || attenuation(c) > attenuation(best) || (attenuation(c) == attenuation(best) && material_index(c) < material_index(best))) best = c;
     return best;
   }
-  const Material& material(std::size_t c) const { return world_.materials[material_index(c)]; }
+  const Material& material(std::size_t c) const { return materials_[material_index(c)]; }
   std::uint32_t material_index(std::size_t c) const { return world_.solids[crossings_[c].solid].material; }
   double attenuation(std::size_t c) const { return c == open_space ? 0.0 : material(c).attenuation_db_per_m; }
   bool is_matter(std::size_t c) const { return c != open_space && visible(material(c), limits_.floor_power); }
@@ -43,13 +44,14 @@ class Wave {
 
  private:
   const World& world_;
+  std::span<const Material> materials_;
   std::span<const Crossing> crossings_;
   const EchoLimits& limits_;
 };
 
 }  // namespace
 
-void trace_echoes(const World& world, std::span<const Crossing> crossings, const glm::dvec3& direction, const EchoLimits& limits, Beam& beam,
+void trace_echoes(const World& world, std::span<const Material> materials, std::span<const Crossing> crossings, const glm::dvec3& direction, const EchoLimits& limits, Beam& beam,
                   std::vector<Echo>& echoes) {
   beam.first_echo = static_cast<std::uint32_t>(echoes.size());
   beam.echo_count = 0;
@@ -72,7 +74,7 @@ void trace_echoes(const World& world, std::span<const Crossing> crossings, const
     return a.crossing != b.crossing ? a.crossing < b.crossing : a.enters > b.enters;
   });
 
-  const Wave wave(world, crossings, limits);
+  const Wave wave(world, materials, crossings, limits);
   std::size_t medium = wave.strongest(active);
   beam.starts_inside = wave.is_matter(medium);
   if (medium != open_space && wave.material(medium).opaque()) {

@@ -23,8 +23,9 @@ inline bool visible(const Material& material, double floor_power) { return mater
 ///
 /// At every point the solid of highest attenuation counts. Where that changes from one material to another there is an interface that reflects
 /// the fraction `reflectivity` of the denser side; power returned is reflectivity * cos(incidence) (a Lambertian surface per ray of fixed solid angle) times
-/// what has passed the interfaces and the matter before it, both ways. The ray ends at an opaque surface, when the loss inside
+/// what has passed the interfaces and the matter before it, both ways. `materials` are the world's as the wave meets them (`at_frequency`). The ray ends at an opaque surface, when the loss inside
 /// matter reaches the budget, or when not even a perfect reflector would be detected any more.
-void trace_echoes(const World& world, std::span<const Crossing> crossings, const glm::dvec3& direction, const EchoLimits& limits, Beam& beam, std::vector<Echo>& echoes);
+void trace_echoes(const World& world, std::span<const Material> materials, std::span<const Crossing> crossings, const glm::dvec3& direction, const EchoLimits& limits, Beam& beam,
+                  std::vector<Echo>& echoes);
 
 }  // namespace thicket

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "echo_chain.hpp"
+#include "light_path.hpp"
 #include "thicket/radar/sensor.hpp"
 
 namespace thicket {
@@ -46,14 +47,15 @@ class Scanner : public Sensor {
     scan.echoes.clear();
 
     const Pose sensor = vehicle * mount_;
+    const std::vector<Material> as_seen = materials_as_seen(scene.world());
     const std::size_t tasks = (azimuths_.size() + beams_per_task - 1) / beams_per_task;
     if (tasks <= 1) {
-      measure_beams(scene, sensor, random, scan, 0, azimuths_.size(), scan.echoes);
+      measure_beams(scene, as_seen, sensor, random, scan, 0, azimuths_.size(), scan.echoes);
     } else {
       std::vector<std::vector<Echo>> echoes(tasks);
       tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
         const std::size_t first = task * beams_per_task;
-        measure_beams(scene, sensor, random, scan, first, std::min(azimuths_.size(), first + beams_per_task), echoes[task]);
+        measure_beams(scene, as_seen, sensor, random, scan, first, std::min(azimuths_.size(), first + beams_per_task), echoes[task]);
       });
       for (std::size_t task = 0; task < tasks; ++task) {
         const auto offset = static_cast<std::uint32_t>(scan.echoes.size());
@@ -69,10 +71,13 @@ class Scanner : public Sensor {
   virtual Ray ray(const Pose& sensor, const glm::dvec3& direction, std::size_t, std::uint64_t, const Random&, Beam&) const {
     return {sensor.position, sensor.orientation * direction, spec().range_max_m};
   }
-  virtual void trace(const Scene& scene, std::span<const Ray> rays, std::span<Beam> beams, std::vector<Echo>& echoes) const = 0;
+  /// The world's materials as the sensor's wave meets them; nothing where they stand in the world as they are wanted.
+  virtual std::vector<Material> materials_as_seen(const World& world) const = 0;
+  virtual void trace(const Scene& scene, std::span<const Material> as_seen, std::span<const Ray> rays, std::span<Beam> beams, std::vector<Echo>& echoes) const = 0;
 
  private:
-  void measure_beams(const Scene& scene, const Pose& sensor, const Random& random, Scan& scan, std::size_t first, std::size_t end, std::vector<Echo>& echoes) const {
+  void measure_beams(const Scene& scene, std::span<const Material> as_seen, const Pose& sensor, const Random& random, Scan& scan, std::size_t first, std::size_t end,
+                     std::vector<Echo>& echoes) const {
     std::vector<Ray> rays;
     rays.reserve(end - first);
     for (std::size_t b = first; b < end; ++b) {
@@ -83,7 +88,7 @@ class Scanner : public Sensor {
       rays.push_back(ray(sensor, directions_[b], b, scan.number, random, beam));
     }
     const std::span<Beam> beams(scan.beams.data() + first, end - first);
-    trace(scene, rays, beams, echoes);
+    trace(scene, as_seen, rays, beams, echoes);
     if (spec().range_noise_m <= 0.0) return;
     for (std::size_t b = first; b < end; ++b) {
       // One draw a beam, the jitter of its trigger: echoes of one beam keep their order and their distances.
@@ -108,7 +113,7 @@ class ScanningRadar final : public Scanner {
   ScanningRadar(const ScanningRadarSpec& spec, std::uint16_t index)
       : Scanner(spec, index), radar_(spec), limits_{spec.range_min_m, spec.range_max_m, spec.penetration_budget_db, std::pow(10.0, 0.1 * spec.detection_floor_db)} {}
 
-  bool detects(const Material& material) const override { return visible(material, limits_.floor_power); }
+  bool detects(const Material& material) const override { return visible(at_frequency(material, radar_.frequency_ghz), limits_.floor_power); }
 
  private:
   Ray ray(const Pose& sensor, const glm::dvec3& direction, std::size_t beam_index, std::uint64_t number, const Random& random, Beam& beam) const override {
@@ -127,11 +132,17 @@ class ScanningRadar final : public Scanner {
     return middle;
   }
 
-  void trace(const Scene& scene, std::span<const Ray> rays, std::span<Beam> beams, std::vector<Echo>& echoes) const override {
+  std::vector<Material> materials_as_seen(const World& world) const override {
+    if (std::ranges::none_of(world.materials, &Material::depends_on_frequency)) return {};
+    return at_frequency(world.materials, radar_.frequency_ghz);
+  }
+
+  void trace(const Scene& scene, std::span<const Material> as_seen, std::span<const Ray> rays, std::span<Beam> beams, std::vector<Echo>& echoes) const override {
+    const std::span<const Material> materials = as_seen.empty() ? scene.world().materials : as_seen;
     CrossingLists lists;
-    scene.crossings(rays, limits_.budget_db, lists);
+    scene.crossings(rays, materials, limits_.budget_db, lists);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      trace_echoes(scene.world(), lists[i], rays[i].direction, limits_, beams[i], echoes);
+      trace_echoes(scene.world(), materials, lists[i], rays[i].direction, limits_, beams[i], echoes);
       Beam& beam = beams[i];
       if (radar_.first_echo_only && beam.echo_count > 0) {
         echoes.resize(beam.first_echo + 1);
@@ -148,26 +159,49 @@ class ScanningRadar final : public Scanner {
 
 class Lidar final : public Scanner {
  public:
-  Lidar(const LidarSpec& spec, std::uint16_t index) : Scanner(spec, index) {}
+  Lidar(const LidarSpec& spec, std::uint16_t index) : Scanner(spec, index), depth_max_(spec.optical_depth_max) {}
 
   bool detects(const Material& material) const override { return material.stops_light; }
 
  private:
-  void trace(const Scene& scene, std::span<const Ray> rays, std::span<Beam> beams, std::vector<Echo>& echoes) const override {
+  /// Only where there are media that light enters. To light, what a metre takes is the extinction: a surface is opaque, and the budget an optical depth.
+  std::vector<Material> materials_as_seen(const World& world) const override {
+    if (std::ranges::none_of(world.materials, &Material::light_medium)) return {};
+    std::vector<Material> list(world.materials.size());
+    for (std::size_t m = 0; m < list.size(); ++m) list[m].attenuation_db_per_m = world.materials[m].stops_light ? world.materials[m].light_extinction_per_m : 0.0;
+    return list;
+  }
+
+  void trace(const Scene& scene, std::span<const Material> as_seen, std::span<const Ray> rays, std::span<Beam> beams, std::vector<Echo>& echoes) const override {
+    if (!as_seen.empty()) return trace_through_media(scene, as_seen, rays, beams, echoes);
     std::vector<Hit> hits(rays.size());
     scene.closest_hits(rays, Stops::light, hits);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      add_echo(hits[i].solid != no_solid, {hits[i].range, hits[i].normal, 1.0}, rays[i], beams[i], echoes);
+  }
+
+  void trace_through_media(const Scene& scene, std::span<const Material> as_seen, std::span<const Ray> rays, std::span<Beam> beams, std::vector<Echo>& echoes) const {
+    CrossingLists lists;
+    scene.crossings(rays, as_seen, depth_max_, lists);
+    LightPath path;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      Beam& beam = beams[i];
-      beam.first_echo = static_cast<std::uint32_t>(echoes.size());
-      beam.sensed_range = std::min(hits[i].range, spec().range_max_m);
-      if (hits[i].solid == no_solid) continue;
-      beam.end = BeamEnd::stopped;
-      if (hits[i].range < spec().range_min_m) continue;
-      const double cosine = std::min(1.0, std::abs(glm::dot(hits[i].normal, rays[i].direction)));
-      echoes.push_back({hits[i].range, static_cast<float>(std::sqrt(cosine)), static_cast<float>(cosine), Edge::front});
-      beam.echo_count = 1;
+      const LightEnd end = path.end(scene.world(), as_seen, lists[i], rays[i].direction, depth_max_);
+      add_echo(end.range <= rays[i].range_max, end, rays[i], beams[i], echoes);
     }
   }
+
+  void add_echo(bool ended, const LightEnd& end, const Ray& ray, Beam& beam, std::vector<Echo>& echoes) const {
+    beam.first_echo = static_cast<std::uint32_t>(echoes.size());
+    beam.sensed_range = std::min(end.range, spec().range_max_m);
+    if (!ended) return;
+    beam.end = BeamEnd::stopped;
+    if (end.range < spec().range_min_m) return;
+    const double cosine = std::min(1.0, std::abs(glm::dot(end.normal, ray.direction)));
+    echoes.push_back({end.range, static_cast<float>(std::sqrt(cosine) * end.through), static_cast<float>(cosine), Edge::front});
+    beam.echo_count = 1;
+  }
+
+  double depth_max_;
 };
 
 }  // namespace

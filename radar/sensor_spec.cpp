@@ -29,7 +29,8 @@ SectionOf<S> scanner_section(const char* type, const char* help) {
 SectionOf<ScanningRadarSpec> radar_section() {
   using S = ScanningRadarSpec;
   auto section = scanner_section<S>("scanning_radar", "the penetrating scanning radar of Rozeboom 2012");
-  section.key("penetration_budget_db", &S::penetration_budget_db, "dB", or_infinite(at_least(0.0)), "loss inside matter, one way, after which a ray is exhausted")
+  section.key("frequency_ghz", &S::frequency_ghz, "GHz", between(0.3, 300.0), "at which the numbers of materials are taken")
+      .key("penetration_budget_db", &S::penetration_budget_db, "dB", or_infinite(at_least(0.0)), "loss inside matter, one way, after which a ray is exhausted")
       .key("detection_floor_db", &S::detection_floor_db, "dB", between(-300.0, 0.0), "power under which nothing is seen; 0 dB is a perfect reflector at normal incidence")
       .key("first_echo_only", &S::first_echo_only, "keep only the first echo of each beam, as if it could not see through anything")
       .choice("divergence", &S::divergence, {"none", "side_rays"}, "beam divergence; side_rays: each beam is its middle, left or right ray, by equal chance")
@@ -38,7 +39,12 @@ SectionOf<ScanningRadarSpec> radar_section() {
   return section;
 }
 
-SectionOf<LidarSpec> lidar_section() { return scanner_section<LidarSpec>("lidar", "a laser scanner: it sees the first surface that stops light"); }
+SectionOf<LidarSpec> lidar_section() {
+  auto section = scanner_section<LidarSpec>("lidar", "a laser scanner: it sees the first surface that stops light, or as deep into smoke as its light gets");
+  section.key("optical_depth_max", &LidarSpec::optical_depth_max, "", or_infinite(above(0.0)),
+              "optical depth (extinction x path, one way) at which a ray ends inside a medium; at 1, light is down by e^-2 there and back; inf sees through every medium");
+  return section;
+}
 
 std::string preset_folder() { return (shipped_root() / "radar" / "presets").string(); }
 

@@ -108,8 +108,8 @@ std::string describe_scene(const Scene& scene) {
   for (std::size_t m = 0; m < world.materials.size(); ++m) {
     const Material& material = world.materials[m];
     const auto users = std::count_if(world.solids.begin(), world.solids.end(), [m](const Solid& s) { return s.material == m; });
-    text += fmt::format("material   {:<12} {:>4} solids, reflectivity {}, {} dB/m, {} light, {} motion\n", material.name, users, material.reflectivity,
-                        material.attenuation_db_per_m, material.stops_light ? "stops" : "passes", material.stops_motion ? "stops" : "passes");
+    text += fmt::format("material   {:<12} {:>4} solids, reflectivity {:.4g}, {:.4g} dB/m{}, {} light, {} motion\n", material.name, users, material.reflectivity,
+                        material.attenuation_db_per_m, material.depends_on_frequency() ? " at 1 GHz" : "", material.stops_light ? "stops" : "passes", material.stops_motion ? "stops" : "passes");
   }
   if (const auto box = extent(world))
     text += fmt::format("extent     x {:.2f} to {:.2f}, y {:.2f} to {:.2f}, z {:.2f} to {:.2f} m\n", box->low.x, box->high.x, box->low.y, box->high.y, box->low.z, box->high.z);

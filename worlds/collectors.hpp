@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,8 +18,8 @@ inline constexpr unsigned packet = 8;
 
 /// What tracing needs to know of a solid, close together.
 struct Matter {
-  double attenuation_db_per_m = 0.0;  ///< +inf: opaque
-  std::array<bool, 3> stops{};        ///< by `Stops`
+  std::uint32_t material = 0;
+  std::array<bool, 3> stops{};  ///< by `Stops`
 };
 
 struct Instance;
@@ -121,6 +122,7 @@ struct Nearest {
 /// All parts as far as the budget reaches.
 struct Gatherer {
   const std::vector<Matter>& matter;
+  std::span<const Material> materials;
   double budget_db;
   bool through_opaque;
   std::array<std::vector<PartCrossing>, packet> met{};
@@ -134,7 +136,7 @@ struct Gatherer {
   }
   /// How far a ray gets inside a solid.
   double depth(std::uint32_t solid) const {
-    const double attenuation = matter[solid].attenuation_db_per_m;
+    const double attenuation = materials[matter[solid].material].attenuation_db_per_m;
     if (through_opaque || !(attenuation > 0.0)) return infinity;
     return attenuation == infinity ? 0.0 : budget_db / attenuation;
   }

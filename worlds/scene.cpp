@@ -265,7 +265,7 @@ constexpr glm::dvec3 upward(0.36, 0.48, 0.8);
 /// Collects the closed meshes along that line.
 class WindingCount {
  public:
-  WindingCount(const std::vector<Matter>& matter, const LaneRay& lane) : gatherer_{matter, infinity, true} {
+  WindingCount(const std::vector<Matter>& matter, std::span<const Material> materials, const LaneRay& lane) : gatherer_{matter, materials, infinity, true} {
     lanes_[0] = lane;
     gatherer_.reset();
     embree::start(query_);
@@ -309,7 +309,7 @@ Windings Scene::Impl::windings(const glm::dvec3& point, const Moving* moving) co
   LaneRay lane{point, upward, infinity, 0.0, false};
   float far = 0.0f;
   if (!has_volumes || !enter(lane, far)) return {};
-  WindingCount count(matter, lane);
+  WindingCount count(matter, world.materials, lane);
   const glm::dvec3 start = point + lane.shift * upward;
   count.through(fixed.scene.get(), &instances, nullptr, start, upward, far);
   if (moving) count.through(moving->scene.get(), &moving->instances, nullptr, start, upward, far);
@@ -317,7 +317,7 @@ Windings Scene::Impl::windings(const glm::dvec3& point, const Moving* moving) co
 }
 
 Windings Scene::Impl::windings_in(const Instance& instance, const glm::dvec3& point) const {
-  WindingCount count(matter, {point, upward, infinity, 0.0, false});
+  WindingCount count(matter, world.materials, {point, upward, infinity, 0.0, false});
   const Placing& p = instance.placing;
   count.through(instance.prototype->scene.get(), nullptr, &instance, p.to_inner(point), p.direction_to_inner(upward), std::numeric_limits<float>::max());
   return count.windings();
@@ -355,7 +355,7 @@ Result<Scene> Scene::build(World world) {
   }
   for (const Solid& solid : impl->world.solids) {
     const Material& m = impl->world.materials[solid.material];
-    impl->matter.push_back({m.attenuation_db_per_m, {true, m.stops_light, m.stops_motion}});
+    impl->matter.push_back({solid.material, {true, m.stops_light, m.stops_motion}});
   }
 
   impl->device.reset(rtcNewDevice(nullptr));
@@ -483,9 +483,13 @@ void pair_surfaces(std::vector<SurfaceHit>& hits, bool to_end, WindingAtStart&& 
 }  // namespace
 
 std::size_t Scene::crossings(std::span<const Ray> rays, double budget_db, CrossingLists& lists, bool through_opaque) const {
+  return crossings(rays, impl_->world.materials, budget_db, lists, through_opaque);
+}
+
+std::size_t Scene::crossings(std::span<const Ray> rays, std::span<const Material> materials, double budget_db, CrossingLists& lists, bool through_opaque) const {
   lists.items.clear();
   lists.first.assign(1, 0);
-  Gatherer gatherer{impl_->matter, budget_db, through_opaque};
+  Gatherer gatherer{impl_->matter, materials, budget_db, through_opaque};
   glm::dvec3 from(NAN);
   Windings around;
   return impl_->trace(rays, moving_.get(), gatherer, [&](std::size_t, unsigned lane, const LaneRay& lane_ray) {

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "material_file.hpp"
 #include "thicket/base/document.hpp"
 #include "thicket/base/pose.hpp"
 #include "thicket/base/schema.hpp"
@@ -46,22 +47,12 @@ SectionOf<Header> header_section() {
   return section;
 }
 
-SectionOf<Material> material_section() {
-  SectionOf<Material> section("[material.NAME]", "a material; solids name it");
-  section.key("reflectivity", &Material::reflectivity, "", between(0.0, 1.0), "fraction of the power that its surface reflects at normal incidence")
-      .key("attenuation_db_per_m", &Material::attenuation_db_per_m, "dB/m", or_infinite(at_least(0.0)), "loss of a radar ray inside, one way; inf is opaque")
-      .key("roughness", &Material::roughness, "", between(0.0, 1.0), "0 is a mirror, 1 is diffuse")
-      .key("stops_light", &Material::stops_light, "whether a lidar's ray ends at its surface")
-      .key("stops_motion", &Material::stops_motion, "whether a robot collides with it");
-  return section;
-}
-
 template <class S>
 SectionOf<S> solid_section(const char* type, const char* help) {
   SectionOf<S> section(fmt::format("[[solid]] of type \"{}\"", type), help);
   section.key("type", &S::type, "the shape").required();
   section.key("name", &S::name, "name of the solid, for messages")
-      .key("material", &S::material, "name of its material")
+      .key("material", &S::material, "name of its material: a table [material.NAME], or one of `thicket materials`")
       .required()
       .key("position_m", &S::position, "m", between(-largest_m, largest_m), "x, y, z of the shape's origin")
       .key("yaw_deg", &S::yaw_deg, "deg", between(-36000.0, 36000.0), "turn about its own vertical axis, counter-clockwise");
@@ -146,13 +137,7 @@ class WorldReader {
   void read_materials(const Node& node) {
     const auto* table = node.table();
     if (!table) return faults.add(node.place, "'material' is not a table, expected tables [material.NAME]");
-    for (const auto& [name, entry] : *table) {
-      Material material;
-      material.name = name;
-      read_section(entry, material_section(), &material, faults);
-      material_names_.push_back(name);
-      world_.materials.push_back(material);
-    }
+    for (const auto& [name, entry] : *table) world_.materials.push_back(read_material(name, entry, entry.find("preset") ? presets() : no_presets_, faults));
   }
 
   void read_solids(const Node& node) {
@@ -182,13 +167,8 @@ class WorldReader {
     solid.name = keys.name.empty() ? fmt::format("{} {}", keys.type, world_.solids.size() + 1) : keys.name;
     solid.position = keys.position;
     solid.yaw = radians(keys.yaw_deg);
-    const auto found = std::find(material_names_.begin(), material_names_.end(), keys.material);
-    if (found != material_names_.end()) {
-      solid.material = static_cast<std::uint32_t>(found - material_names_.begin());
-    } else if (const Node* material = entry.find("material"); material && std::holds_alternative<std::string>(material->content)) {
-      faults.add(material->place, fmt::format("there is no material '{}', expected a table [material.{}]{}", keys.material, keys.material,
-                                              did_you_mean(keys.material, material_names_)));
-    }
+    if (const Node* material = entry.find("material"); material && std::holds_alternative<std::string>(material->content))
+      solid.material = material_index(keys.material, material->place);
     finish(entry, keys, solid);
     world_.solids.push_back(std::move(solid));
   }
@@ -214,8 +194,33 @@ class WorldReader {
     place_map(solid, std::move(*grid), {{}, keys.unknown_is_matter, keys.height});
   }
 
+  /// A material of the world, or a shipped one, which the world then has too.
+  std::uint32_t material_index(const std::string& name, const Place& place) {
+    const Material* found = find_material(world_.materials, name);
+    if (!found) {
+      const Material* preset = find_material(presets(), name);
+      if (!preset) {
+        std::vector<std::string> known = names_of(world_.materials);
+        for (std::string& shipped : names_of(presets())) known.push_back(std::move(shipped));
+        faults.add(place, fmt::format("there is no material '{}', expected a table [material.{}] or one of `thicket materials`{}", name, name, did_you_mean(name, known)));
+        return 0;
+      }
+      found = &world_.materials.emplace_back(*preset);
+    }
+    return static_cast<std::uint32_t>(found - world_.materials.data());
+  }
+
+  /// Read when the first is wanted: a world with materials of its own needs none.
+  const std::vector<Material>& presets() {
+    if (presets_) return *presets_;
+    auto read = material_presets();
+    if (!read) faults.take(read.error());
+    return presets_.emplace(read ? std::move(*read) : no_presets_);
+  }
+
   World& world_;
-  std::vector<std::string> material_names_;
+  std::optional<std::vector<Material>> presets_;
+  const std::vector<Material> no_presets_;
 };
 
 Result<World> world_of_map(const std::filesystem::path& file, const MapOptions& options) {
@@ -253,8 +258,7 @@ Result<World> read_world(const std::filesystem::path& file, const MapOptions& ma
 
 std::string describe_world_file() {
   const Header header;
-  const Material material;
-  std::string text = describe_section(header_section(), &header) + "\n" + describe_section(material_section(), &material);
+  std::string text = describe_section(header_section(), &header) + "\n" + describe_material_table();
   const auto describe = [&text](const auto& section, const auto& defaults) { text += "\n" + describe_section(section, &defaults); };
   describe(box_section(), SolidKeys<Box>{});
   describe(sphere_section(), SolidKeys<Sphere>{});

@@ -18,13 +18,6 @@ int complain(const Error& error) {
   return bad_input;
 }
 
-/// A TOML file that names a world is a mission.
-bool is_mission(const std::filesystem::path& file) {
-  if (file.extension() != ".toml") return false;
-  const auto document = read_document(file);
-  return document && (document->find("world") || document->find("planner") || document->find("sensor"));
-}
-
 std::string text_of(const Node& document, const char* key) {
   const Node* node = document.find(key);
   const auto* text = node ? std::get_if<std::string>(&node->content) : nullptr;
@@ -57,6 +50,12 @@ int check_mission(const std::filesystem::path& file, const std::vector<Override>
 }
 
 }  // namespace
+
+bool is_mission(const std::filesystem::path& file) {
+  if (file.extension() != ".toml") return false;
+  const auto document = read_document(file);
+  return document && (document->find("world") || document->find("planner") || document->find("sensor"));
+}
 
 int check_file(const std::string& name, const std::vector<Override>& overrides, const std::string& map_image) {
   const auto file = find_input(name);

@@ -93,6 +93,11 @@ int dispatch(int argc, char** argv) {
   check.add_option("file", file, "world or mission file")->required();
   check_flags.add_to(check);
   CLI::App& worlds = *app.add_subcommand("worlds", "list the worlds and missions that are shipped");
+  MaterialsArguments materials_arguments;
+  CLI::App& materials = *app.add_subcommand("materials", "print the shipped materials, or those of a world, as a radar of some frequency meets them");
+  materials.add_option("world", materials_arguments.world, "world file (default: the shipped materials)")->type_name("FILE");
+  materials.add_option("--frequency-ghz", materials_arguments.frequency_ghz, "frequency (default: 24)")->type_name("GHZ")->check(CLI::Range(0.3, 300.0));
+  materials.add_option("--thickness-m", materials_arguments.thickness_m, "also what a wall of this thickness reflects and lets through, at normal incidence")->type_name("M")->check(CLI::PositiveNumber);
   CLI::App& help = *app.add_subcommand("help", "explain every key of a mission or world file");
   help.add_option("topic", topic, "mission or world")->required();
 
@@ -116,6 +121,7 @@ int dispatch(int argc, char** argv) {
     return overrides ? check_file(file, *overrides, check_flags.map_image) : bad_input;
   }
   if (worlds.parsed()) return list_worlds();
+  if (materials.parsed()) return list_materials(materials_arguments);
   return help_topic(topic);
 }
 

@@ -1,6 +1,7 @@
 // The commands of the program, one function each; main.cpp parses the command line and calls them. Each returns the program's exit code.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +26,16 @@ struct RunArguments {
 int run_mission(const RunArguments& arguments);
 /// `map_image` is what --map-image gave, which is also among the overrides of a mission.
 int check_file(const std::string& file, const std::vector<Override>& overrides, const std::string& map_image);
+/// A TOML file that names a world, a planner or a sensor is a mission.
+bool is_mission(const std::filesystem::path& file);
 int list_worlds();
+
+struct MaterialsArguments {
+  std::string world;  ///< empty: the shipped materials
+  double frequency_ghz = 24.0;
+  std::optional<double> thickness_m;
+};
+int list_materials(const MaterialsArguments& arguments);
 int help_topic(const std::string& topic);
 
 }  // namespace thicket::cli

@@ -151,6 +151,49 @@ TEST_CASE("worlds, check, help and --version tell what there is") {
   CHECK(has(thicket(folder, "--help").out, "Exit codes"));
 }
 
+TEST_CASE("materials prints the shipped ones, or those of a world, at a frequency") {
+  const TemporaryFolder folder;
+  const auto line = [](const std::string& text, const std::string& name) {
+    const auto from = text.find("\n" + name + " ");
+    return from == std::string::npos ? "" : text.substr(from + 1, text.find('\n', from + 1) - from - 1);
+  };
+  const Answer uwb = thicket(folder, "materials --frequency-ghz 7.29 --thickness-m 0.1");
+  CHECK(uwb.code == 0);
+  CHECK(uwb.err == "");
+  CHECK(has(uwb.out, "at 7.29 GHz, walls of 0.1 m"));
+  const std::string concrete = line(uwb.out, "concrete");
+  for (const char* part : {" 5.24 ", " 0.219 ", " 0.155 ", " 156 ", " surface ", " light, motion ", " -17.03 ", "ITU-R P.2040-3"}) CHECK_MESSAGE(has(concrete, part), concrete);
+  CHECK(has(line(uwb.out, "metal"), " opaque "));
+  CHECK(has(line(uwb.out, "glass"), " motion "));
+  CHECK(uwb.out.find("\nconcrete ") < uwb.out.find("\nbrick "));
+  CHECK(uwb.out.find("\nabsorber ") < uwb.out.find("\nmirror "));
+
+  const Answer standard = thicket(folder, "materials");
+  CHECK(has(standard.out, "at 24 GHz\n"));
+  CHECK(has(line(standard.out, "concrete"), " 396 "));
+  CHECK_FALSE(has(standard.out, "passed dB"));
+
+  folder.write("w.toml", "name = \"w\"\n[material.thin]\npreset = \"smoke\"\nlight_extinction_per_m = 0.25\n[[solid]]\ntype = \"sphere\"\nmaterial = \"brick\"\nradius_m = 1\n");
+  const Answer world = thicket(folder, "materials w.toml --frequency-ghz 7.29");
+  CHECK(world.code == 0);
+  CHECK(has(line(world.out, "thin"), " 0.25 "));
+  CHECK(has(line(world.out, "brick"), " 27.1 "));
+  CHECK_FALSE(has(world.out, "concrete"));
+  CHECK(has(thicket(folder, "check w.toml").out, "dB/m at 1 GHz"));
+
+  for (const auto& [arguments, words] : {std::pair{"materials nowhere", "there is no world 'nowhere'"}, {"materials foliage_wall/smoke", "this is a mission and not a world"},
+                                         {"materials --frequency-ghz 0.1", "--frequency-ghz"}, {"materials --thickness-m 0", "--thickness-m"}}) {
+    CAPTURE(arguments);
+    const Answer answer = thicket(folder, arguments);
+    CHECK(answer.code == 2);
+    CHECK(has(answer.err, words));
+    CHECK(answer.out == "");
+  }
+  CHECK(has(thicket(folder, "help world").out, "conductivity_s_per_m"));
+  CHECK(has(thicket(folder, "help mission").out, "frequency_ghz"));
+  CHECK(has(thicket(folder, "help mission").out, "optical_depth_max"));
+}
+
 TEST_CASE("a map_server map is a world, a broken image reference says how to go on") {
   const auto yaml = outside_data("ros_maps/nav2_depot.yaml");
   if (!yaml) {

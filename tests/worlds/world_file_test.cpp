@@ -229,7 +229,7 @@ TEST_CASE("broken files are told with their place, what is wrong and what was ex
       {"missing material", "[[solid]]\ntype = \"sphere\"\nradius_m = 1\n",
        "w.toml:4:1: [[solid]] of type \"sphere\" lacks the key 'material', expected a text in quotes"},
       {"unknown material", "[[solid]]\ntype = \"sphere\"\nmaterial = \"wal\"\nradius_m = 1\n",
-       "w.toml:6:12: there is no material 'wal', expected a table [material.wal] (did you mean 'wall'?)"},
+       "w.toml:6:12: there is no material 'wal', expected a table [material.wal] or one of `thicket materials` (did you mean 'wall'?)"},
       {"material of a wrong type", "[[solid]]\ntype = \"sphere\"\nmaterial = 3\nradius_m = 1\n",
        "w.toml:6:12: 'material' is an integer, expected a text in quotes"},
       {"missing radius", "[[solid]]\ntype = \"sphere\"\nmaterial = \"wall\"\n",
@@ -305,14 +305,14 @@ TEST_CASE("all faults of a file are told at once, in its order") {
       "colour = \"red\"\n"
       "[[solid]]\ntype = \"sphere\"\nmaterial = \"wall\"\nradius_m = -1\n"
       "[[solid]]\ntype = \"ball\"\n"
-      "[[solid]]\ntype = \"box\"\nmaterial = \"glass\"\nsize_m = [1, 1]\n"
+      "[[solid]]\ntype = \"box\"\nmaterial = \"gloss\"\nsize_m = [1, 1]\n"
       "[[solid]]\ntype = \"wall\"\nmaterial = \"wall\"\npoints_m = [[0, 0], [0, 0]]\nheight_m = 0\n"
       "[[solid]]\ntype = \"map\"\nmaterial = \"wall\"\nfile = \"none.yaml\"\n");
   CAPTURE(error);
   std::size_t from = 0;
   for (const char* part :
        {"w.toml:4:1: unknown key 'colour'", "w.toml:8:12: 'radius_m' is -1", "w.toml:10:8: 'type' is 'ball'", "w.toml:14:10: 'size_m' has",
-        "w.toml:13:12: there is no material 'glass'", "w.toml:19:12: 'height_m' is 0", "w.toml:18:12: points 1 and 2", "none.yaml"}) {
+        "w.toml:13:12: there is no material 'gloss'", "w.toml:19:12: 'height_m' is 0", "w.toml:18:12: points 1 and 2", "none.yaml"}) {
     CAPTURE(std::string(part));
     const std::size_t at = error.find(part, from);
     CHECK(at != std::string::npos);
@@ -389,6 +389,13 @@ TEST_CASE("the help on world files names every key") {
                           "[material.NAME]",
                           "reflectivity",
                           "attenuation_db_per_m",
+                          "attenuation_exponent",
+                          "preset",
+                          "permittivity",
+                          "permittivity_exponent",
+                          "conductivity_s_per_m",
+                          "conductivity_exponent",
+                          "light_extinction_per_m",
                           "roughness",
                           "stops_light",
                           "stops_motion",

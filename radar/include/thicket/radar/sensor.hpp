@@ -20,7 +20,7 @@ class Sensor {
   /// Measures from a vehicle's pose. The scan is a function of the arguments alone. `scan` is overwritten; its memory is used again.
   virtual void measure(const Scene& scene, const Pose& vehicle, double time, std::uint64_t number, const Random& random, Scan& scan) const = 0;
 
-  /// Whether a surface of this material, met squarely from the open, gives an echo.
+  /// Whether a surface of this material, met squarely from the open, gives an echo; of a medium that light enters, whether enough of it does.
   virtual bool detects(const Material& material) const = 0;
 
   const ScannerSpec& spec() const { return spec_; }

@@ -27,6 +27,7 @@ struct ScannerSpec {
 
 /// The penetrating scanning radar of Rozeboom 2012.
 struct ScanningRadarSpec : ScannerSpec {
+  double frequency_ghz = 24.0;  ///< at which materials are evaluated; the 2012 text names radars of 24 and 94 GHz
   double penetration_budget_db = 10.0;  ///< loss inside matter, one way, after which a ray is exhausted
   double detection_floor_db = -60.0;    ///< power under which the receiver sees nothing, against a perfect reflector at normal incidence
   bool first_echo_only = false;
@@ -35,8 +36,10 @@ struct ScanningRadarSpec : ScannerSpec {
   std::string side_geometry = "diverging";  ///< "diverging": common origin, offset N at range_max | "parallel": offset N at the sensor
 };
 
-/// A laser scanner: the first surface that stops light.
-struct LidarSpec : ScannerSpec {};
+/// A laser scanner: the first surface that stops light, or as deep in a medium as light gets.
+struct LidarSpec : ScannerSpec {
+  double optical_depth_max = 1.0;  ///< one way, at which a ray ends inside media; on its way there and back light then is down by e^(-2 optical_depth_max)
+};
 
 using SensorSpec = std::variant<ScanningRadarSpec, LidarSpec>;
 

@@ -31,6 +31,34 @@ struct Material {
   std::string source = {};               ///< where the numbers come from
 
   bool opaque() const { return attenuation_db_per_m == std::numeric_limits<double>::infinity(); }
+  bool depends_on_frequency() const { return dielectric.has_value() || (attenuation_exponent != 0.0 && attenuation_db_per_m > 0.0 && !opaque()); }
+  /// Light goes into it and fades, where the surface of anything else that stops light ends it.
+  bool light_medium() const { return stops_light && light_extinction_per_m < std::numeric_limits<double>::infinity(); }
 };
+
+/// A dielectric whose wave fades faster than this is opaque: 20 dB in 0.2 mm. Metal is far above it, sea water (about 10^3) far below.
+inline constexpr double opaque_db_per_m = 1e5;
+
+/// Conductivity in S/m, c f^d, at a frequency in GHz, > 0.
+double conductivity(const Dielectric& dielectric, double frequency_ghz);
+/// Relative permittivity a f^b - j sigma / (omega eps0) for fields that go with e^(j omega t) (ITU-R P.2040-3): the imaginary part is <= 0.
+std::complex<double> permittivity(const Dielectric& dielectric, double frequency_ghz);
+
+/// The material as a wave of a frequency in GHz, > 0, meets it; the result depends on the frequency no more. With a dielectric of permittivity eta, its reflectivity is
+/// |(1 - sqrt eta) / (1 + sqrt eta)|^2 (Fresnel, normal incidence) and its attenuation 20 log10(e) omega / c |Im sqrt eta|, infinite above `opaque_db_per_m`. Without
+/// one, attenuation_db_per_m f^attenuation_exponent.
+Material at_frequency(const Material& material, double frequency_ghz);
+std::vector<Material> at_frequency(const std::vector<Material>& materials, double frequency_ghz);
+
+/// What a plane slab in air does to a wave: fractions of its power. What is missing to 1 stays inside.
+struct Slab {
+  double reflected = 0.0, transmitted = 0.0;
+};
+/// A slab of a thickness in m, > 0, met at an angle of incidence in [0, pi/2), in rad. Of a dielectric: all inner reflections in phase, electric field parallel to the
+/// surface (TE) (ITU-R P.2040-3, single-layer slab). Of any other material, whose phase is not known: inner reflections added by power, along the straight way.
+Slab slab(const Material& material, double frequency_ghz, double thickness_m, double incidence = 0.0);
+
+/// The materials that are shipped (worlds/presets/materials.toml), in the order of the file.
+Result<std::vector<Material>> material_presets();
 
 }  // namespace thicket

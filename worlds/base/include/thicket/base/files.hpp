@@ -17,7 +17,7 @@ Result<std::string> read_text_file(const std::filesystem::path& file);
 /// Missing folders are made.
 Result<Done> write_file(const std::filesystem::path& file, std::string_view content);
 
-/// The folder that holds what is shipped (`worlds/data`, `radar/presets`, `sim/presets`): the first that exists of the environment variable
+/// The folder that holds what is shipped (`worlds/data`, `worlds/presets`, `radar/presets`, `sim/presets`): the first that exists of the environment variable
 /// `THICKET_DATA`, `../share/thicket` beside the running program, and the source tree that it was built from.
 std::filesystem::path shipped_root();
 
