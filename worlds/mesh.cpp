@@ -1,13 +1,15 @@
 #include "thicket/worlds/mesh.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
-#include <map>
 #include <unordered_map>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "edges.hpp"
+#include "polygon.hpp"
 
 namespace thicket {
 namespace {
@@ -25,44 +27,54 @@ struct SamePlace {
   }
 };
 
-/// Whether every edge is passed as often one way as the other: then the triangles bound a volume, and a line enters it as often as it leaves.
-bool is_closed(const std::vector<glm::uvec3>& triangles) {
-  if (triangles.empty()) return false;
-  // (edge, +1 or -1), sorted: quicker than a hash table for millions.
-  struct Pass {
-    std::uint64_t edge;
-    int way;
-  };
-  std::vector<Pass> passes;
-  passes.reserve(3 * triangles.size());
-  for (const glm::uvec3& t : triangles)
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-      passes.push_back({(std::uint64_t{std::min(a, b)} << 32) | std::max(a, b), a < b ? 1 : -1});
-    }
-  std::sort(passes.begin(), passes.end(), [](const Pass& p, const Pass& q) { return p.edge < q.edge; });
-  for (std::size_t i = 0; i < passes.size();) {
-    const std::uint64_t edge = passes[i].edge;
-    int sum = 0;
-    for (; i < passes.size() && passes[i].edge == edge; ++i) sum += passes[i].way;
-    if (sum != 0) return false;
+}  // namespace
+
+Welded weld(std::span<const glm::dvec3> vertices) {
+  Welded welded;
+  std::unordered_map<glm::dvec3, std::uint32_t, SamePlace> places;
+  places.reserve(vertices.size());
+  welded.index.reserve(vertices.size());
+  for (const glm::dvec3& vertex : vertices) {
+    const glm::dvec3 p = vertex + 0.0;  // -0 and 0 are one place
+    const auto [found, added] = places.try_emplace(p, static_cast<std::uint32_t>(welded.vertices.size()));
+    if (added) welded.vertices.push_back(p);
+    welded.index.push_back(found->second);
   }
-  return true;
+  return welded;
 }
 
-}  // namespace
+std::vector<EdgePass> edge_passes(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> groups) {
+  std::vector<EdgePass> passes;
+  passes.reserve(3 * triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t a = triangles[t][i], b = triangles[t][(i + 1) % 3];
+      const std::uint64_t edge = (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
+      passes.push_back({edge, groups.empty() ? 0 : groups[t], static_cast<std::uint32_t>(2 * t + (a < b ? 0 : 1))});
+    }
+  // Sorted: quicker than a hash table for millions.
+  std::sort(passes.begin(), passes.end(), [](const EdgePass& p, const EdgePass& q) {
+    return p.edge != q.edge ? p.edge < q.edge : p.group != q.group ? p.group < q.group : p.code < q.code;
+  });
+  return passes;
+}
+
+bool is_closed(std::span<const glm::uvec3> triangles) {
+  if (triangles.empty()) return false;
+  bool closed = true;
+  for_each_edge(edge_passes(triangles), [&](std::span<const EdgePass> edge) {
+    int sum = 0;
+    for (const EdgePass& pass : edge) sum += pass.way();
+    closed = closed && sum == 0;
+  });
+  return closed;
+}
 
 std::shared_ptr<const Mesh> make_mesh(std::vector<glm::dvec3> vertices, std::vector<glm::uvec3> triangles) {
   auto mesh = std::make_shared<Mesh>();
-  std::unordered_map<glm::dvec3, std::uint32_t, SamePlace> places;
-  places.reserve(vertices.size());
-  std::vector<std::uint32_t> index(vertices.size());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const glm::dvec3 p = vertices[i] + 0.0;  // -0 and 0 are one place
-    const auto [found, added] = places.try_emplace(p, static_cast<std::uint32_t>(mesh->vertices.size()));
-    if (added) mesh->vertices.push_back(p);
-    index[i] = found->second;
-  }
+  Welded welded = weld(vertices);
+  mesh->vertices = std::move(welded.vertices);
+  const std::vector<std::uint32_t>& index = welded.index;
   mesh->triangles.reserve(triangles.size());
   for (const glm::uvec3& t : triangles) {
     const glm::uvec3 u(index[t.x], index[t.y], index[t.z]);
@@ -87,6 +99,31 @@ double signed_volume(const Mesh& mesh) {
   for (const glm::uvec3& t : mesh.triangles)
     six += glm::dot(mesh.vertices[t.x] - middle, glm::cross(mesh.vertices[t.y] - middle, mesh.vertices[t.z] - middle));
   return six / 6.0;
+}
+
+std::shared_ptr<const Mesh> prism_mesh(const std::vector<glm::dvec2>& outline, const std::vector<std::vector<glm::dvec2>>& holes, double height) {
+  std::vector<glm::dvec3> vertices;  // the lower and the upper end of each point's edge
+  std::vector<glm::uvec3> triangles;
+  const auto add_side = [&](const Ring& ring, bool left_is_inside) {
+    const auto first = static_cast<std::uint32_t>(vertices.size()), n = static_cast<std::uint32_t>(ring.size());
+    for (const glm::dvec2& p : ring) {
+      vertices.emplace_back(p, 0.0);
+      vertices.emplace_back(p, height);
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+      std::uint32_t a = first + 2 * i, b = first + 2 * ((i + 1) % n);
+      if (!left_is_inside) std::swap(a, b);
+      triangles.emplace_back(a, b, b + 1);
+      triangles.emplace_back(a, b + 1, a + 1);
+    }
+  };
+  add_side(outline, counter_clockwise(outline));
+  for (const Ring& hole : holes) add_side(hole, !counter_clockwise(hole));
+  for (const glm::uvec3& t : triangulate(outline, holes)) {
+    triangles.emplace_back(2 * t.z, 2 * t.y, 2 * t.x);
+    triangles.emplace_back(2 * t.x + 1, 2 * t.y + 1, 2 * t.z + 1);
+  }
+  return make_mesh(std::move(vertices), std::move(triangles));
 }
 
 }  // namespace thicket

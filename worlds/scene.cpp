@@ -57,9 +57,6 @@ Bounds whole_extent(const Solid& solid) {
   return all;
 }
 
-// TEMPORARY
-std::shared_ptr<const Mesh> prism_mesh(const std::vector<glm::dvec2>&, const std::vector<std::vector<glm::dvec2>>&, double) { return make_mesh({}, {}); }
-
 /// The mesh that a solid is traced as, or nothing.
 std::shared_ptr<const Mesh> mesh_of(const Solid& solid) {
   if (const auto* mesh = std::get_if<MeshSolid>(&solid.shape)) return mesh->mesh;

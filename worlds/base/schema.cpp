@@ -38,7 +38,7 @@ std::string expectation(const Key& key) {
       if (key.length_min == key.length_max) return fmt::format("an array of {} numbers{}{}", key.length_min, unit_in_words(key), limits);
       return fmt::format("an array of numbers{}{}", unit_in_words(key), limits);
     case KeyKind::points:
-      return fmt::format("an array of [x, y] points{}{}", unit_in_words(key), limits);
+      return fmt::format("an array of [x, y{}] points{}{}", key.length_max == 3 ? ", z" : "", unit_in_words(key), limits);
   }
   return "";
 }
@@ -217,12 +217,25 @@ std::string write_section(const Section& section, const void* object) {
   return text;
 }
 
+namespace {
+
+std::string default_in_words(const Key& key, const void* defaults) {
+  const std::string value = to_toml(key.get(defaults));
+  return key.required ? "required" : value.empty() ? "not given" : "default " + value;
+}
+
+}  // namespace
+
+std::string describe_section_in_markdown(const Section& section, const void* defaults) {
+  std::string text = fmt::format("**`{}`**: {}\n\n| key | what | takes | |\n|---|---|---|---|\n", section.name, section.help);
+  for (const Key& key : section.keys) text += fmt::format("| `{}` | {} | {} | {} |\n", key.name, key.help, expectation(key), default_in_words(key, defaults));
+  return text;
+}
+
 std::string describe_section(const Section& section, const void* defaults) {
   std::string text = fmt::format("{}  {}\n", section.name, section.help);
   for (const Key& key : section.keys) {
-    const std::string value = to_toml(key.get(defaults));
-    const std::string standard = key.required ? "required" : value.empty() ? "not given" : "default " + value;
-    text += fmt::format("  {:<26} {}\n  {:<26}   {}; {}\n", key.name, key.help, "", expectation(key), standard);
+    text += fmt::format("  {:<26} {}\n  {:<26}   {}; {}\n", key.name, key.help, "", expectation(key), default_in_words(key, defaults));
   }
   return text;
 }

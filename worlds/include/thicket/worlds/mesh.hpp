@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace thicket {
@@ -22,5 +23,9 @@ std::shared_ptr<const Mesh> make_mesh(std::vector<glm::dvec3> vertices, std::vec
 
 /// The volume that the mesh holds, m^3; negative if its triangles face inward. By the divergence theorem.
 double signed_volume(const Mesh& mesh);
+
+/// A polygon, possibly with holes, extruded from z = 0 to `height` (m, > 0): closed and facing outward, whichever way the rings run. They are simple, and the
+/// holes lie inside the outline and meet nothing.
+std::shared_ptr<const Mesh> prism_mesh(const std::vector<glm::dvec2>& outline, const std::vector<std::vector<glm::dvec2>>& holes, double height);
 
 }  // namespace thicket

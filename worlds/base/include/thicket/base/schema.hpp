@@ -110,6 +110,9 @@ std::string write_section(const Section& section, const void* object);
 /// The keys with unit, range, default (from `defaults`) and help, as text for a terminal.
 std::string describe_section(const Section& section, const void* defaults);
 
+/// The same as a table in Markdown.
+std::string describe_section_in_markdown(const Section& section, const void* defaults);
+
 /// A value as TOML: shortest digits that read back to the same bits.
 std::string to_toml(const Value& value);
 std::string toml_string(std::string_view text);
@@ -141,12 +144,14 @@ Point point(const std::vector<double>& list) {
 }
 template <class M>
 inline constexpr bool is_point = std::is_same_v<M, glm::dvec2> || std::is_same_v<M, glm::dvec3> || std::is_same_v<M, glm::dvec4>;
+template <class M>
+inline constexpr bool is_point_list = std::is_same_v<M, std::vector<glm::dvec2>> || std::is_same_v<M, std::vector<glm::dvec3>>;
 
 template <class M>
 Value to_value(const M& member) {
   if constexpr (is_point<M>) {
     return coordinates(member);
-  } else if constexpr (std::is_same_v<M, std::vector<glm::dvec2>>) {
+  } else if constexpr (is_point_list<M>) {
     std::vector<std::vector<double>> list;
     for (const auto& p : member) list.push_back(coordinates(p));
     return list;
@@ -160,9 +165,9 @@ template <class M>
 M from_value(const Value& value) {
   if constexpr (is_point<M>) {
     return point<M>(std::get<std::vector<double>>(value));
-  } else if constexpr (std::is_same_v<M, std::vector<glm::dvec2>>) {
+  } else if constexpr (is_point_list<M>) {
     M list;
-    for (const auto& p : std::get<std::vector<std::vector<double>>>(value)) list.push_back(point<glm::dvec2>(p));
+    for (const auto& p : std::get<std::vector<std::vector<double>>>(value)) list.push_back(point<typename M::value_type>(p));
     return list;
   } else if constexpr (std::is_integral_v<M> && !std::is_same_v<M, bool>) {
     return static_cast<M>(std::get<std::int64_t>(value));
@@ -175,9 +180,9 @@ void describe_kind(Key& key) {
   if constexpr (is_point<M>) {
     key.kind = KeyKind::numbers;
     key.length_min = key.length_max = static_cast<std::size_t>(M::length());
-  } else if constexpr (std::is_same_v<M, std::vector<glm::dvec2>>) {
+  } else if constexpr (is_point_list<M>) {
     key.kind = KeyKind::points;
-    key.length_min = key.length_max = 2;
+    key.length_min = key.length_max = static_cast<std::size_t>(M::value_type::length());
   } else if constexpr (std::is_same_v<M, std::vector<double>>) {
     key.kind = KeyKind::numbers;
     key.length_max = std::numeric_limits<std::size_t>::max();
