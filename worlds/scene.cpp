@@ -313,7 +313,7 @@ std::size_t Scene::crossings(std::span<const Ray> rays, double budget_db, Crossi
 std::size_t Scene::crossings(std::span<const Ray> rays, std::span<const Material> materials, double budget_db, CrossingLists& lists, bool through_opaque) const {
   lists.items.clear();
   lists.first.assign(1, 0);
-  Gatherer gatherer{impl_->matter, materials, budget_db, through_opaque};
+  Gatherer gatherer{impl_->matter, depths_of(materials, budget_db, through_opaque)};
   return impl_->trace(rays, gatherer, [&](std::size_t, unsigned lane, const LaneRay& lane_ray) {
     impl_->join_parts(lane_ray, gatherer.met[lane], gatherer.stop[lane], lists.items);
     lists.first.push_back(static_cast<std::uint32_t>(lists.items.size()));
