@@ -119,12 +119,21 @@ struct Nearest {
   }
 };
 
+/// How far a ray gets inside each material before its budget is used up, m.
+inline std::vector<double> depths_of(std::span<const Material> materials, double budget_db, bool through_opaque) {
+  std::vector<double> depths;
+  depths.reserve(materials.size());
+  for (const Material& material : materials) {
+    const double attenuation = material.attenuation_db_per_m;
+    depths.push_back(through_opaque || !(attenuation > 0.0) ? infinity : attenuation == infinity ? 0.0 : budget_db / attenuation);
+  }
+  return depths;
+}
+
 /// All parts as far as the budget reaches.
 struct Gatherer {
   const std::vector<Matter>& matter;
-  std::span<const Material> materials;
-  double budget_db;
-  bool through_opaque;
+  std::vector<double> depths;  ///< `depths_of` the world's materials
   std::array<std::vector<PartCrossing>, packet> met{};
   std::array<std::vector<SurfaceHit>, packet> surfaces{};
   std::array<double, packet> stop{};
@@ -134,25 +143,19 @@ struct Gatherer {
     for (auto& list : surfaces) list.clear();
     stop.fill(infinity);
   }
-  /// How far a ray gets inside a solid.
-  double depth(std::uint32_t solid) const {
-    const double attenuation = materials[matter[solid].material].attenuation_db_per_m;
-    if (through_opaque || !(attenuation > 0.0)) return infinity;
-    return attenuation == infinity ? 0.0 : budget_db / attenuation;
-  }
   /// As `Nearest::meet`.
   double meet(unsigned lane, const PartCrossing& crossing) {
     met[lane].push_back(crossing);
     // A part that is deep enough to use up the whole budget by itself ends the ray, whatever else lies on it. Deeper by more than rounding: whoever adds up
     // the losses along the list must come to the same end, or he would go on where the list does not.
-    const double end = std::max(0.0, crossing.interval.enter) + depth(crossing.solid);
+    const double end = std::max(0.0, crossing.interval.enter) + depths[matter[crossing.solid].material];
     if (end * (1.0 + 1e-12) < crossing.interval.leave) stop[lane] = std::min(stop[lane], end);
     return stop[lane];
   }
   double meet(unsigned lane, const SurfaceHit& hit, std::uint32_t) {
     surfaces[lane].push_back(hit);
     // How deep it is behind here is not known yet; only for opaque matter that does not matter.
-    if (hit.enters && depth(hit.solid) == 0.0) stop[lane] = std::min(stop[lane], hit.range);
+    if (hit.enters && depths[matter[hit.solid].material] == 0.0) stop[lane] = std::min(stop[lane], hit.range);
     return stop[lane];
   }
 };

@@ -262,7 +262,7 @@ constexpr glm::dvec3 upward(0.36, 0.48, 0.8);
 /// Collects the closed meshes along that line.
 class WindingCount {
  public:
-  WindingCount(const std::vector<Matter>& matter, std::span<const Material> materials, const LaneRay& lane) : gatherer_{matter, materials, infinity, true} {
+  WindingCount(const std::vector<Matter>& matter, std::span<const Material> materials, const LaneRay& lane) : gatherer_{matter, depths_of(materials, infinity, true)} {
     lanes_[0] = lane;
     gatherer_.reset();
     embree::start(query_);
@@ -486,7 +486,7 @@ std::size_t Scene::crossings(std::span<const Ray> rays, double budget_db, Crossi
 std::size_t Scene::crossings(std::span<const Ray> rays, std::span<const Material> materials, double budget_db, CrossingLists& lists, bool through_opaque) const {
   lists.items.clear();
   lists.first.assign(1, 0);
-  Gatherer gatherer{impl_->matter, materials, budget_db, through_opaque};
+  Gatherer gatherer{impl_->matter, depths_of(materials, budget_db, through_opaque)};
   glm::dvec3 from(NAN);
   Windings around;
   return impl_->trace(rays, moving_.get(), gatherer, [&](std::size_t, unsigned lane, const LaneRay& lane_ray) {
