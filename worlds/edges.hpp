@@ -18,9 +18,9 @@ Welded weld(std::span<const glm::dvec3> vertices);
 
 /// One of a triangle's passages along an edge.
 struct EdgePass {
-  std::uint64_t edge;    ///< its ends, the smaller index in the upper half
-  std::uint32_t group;   ///< the triangle's
-  std::uint32_t code;    ///< twice the triangle's index, plus 1 if it runs from the larger index to the smaller
+  std::uint64_t edge;   ///< its ends, the smaller index in the upper half
+  std::uint32_t group;  ///< the triangle's
+  std::uint32_t code;   ///< twice the triangle's index, plus 1 if it runs from the larger index to the smaller
 
   std::uint32_t triangle() const { return code >> 1; }
   int way() const { return (code & 1u) != 0 ? -1 : 1; }
@@ -40,7 +40,8 @@ void for_each_edge(std::span<const EdgePass> passes, Visit&& visit) {
   }
 }
 
-/// Whether every edge is passed as often one way as the other: then the triangles bound a volume, and a line enters it as often as it leaves.
+/// Whether every edge is passed as often one way as the other: then the triangles bound a volume, and a line enters it as often as it
+/// leaves.
 bool is_closed(std::span<const glm::uvec3> triangles);
 
 }  // namespace thicket

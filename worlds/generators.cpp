@@ -98,7 +98,9 @@ struct Branch {
 class Tree {
  public:
   explicit Tree(const TreeSpec& spec)
-      : spec_(spec), dice_(spec.seed), middle_(0.0, 0.0, 0.5 * (spec.crown_base + spec.height)),
+      : spec_(spec),
+        dice_(spec.seed),
+        middle_(0.0, 0.0, 0.5 * (spec.crown_base + spec.height)),
         half_(spec.crown_radius, spec.crown_radius, 0.5 * (spec.height - spec.crown_base)) {}
 
   Foliage grow() {
@@ -170,7 +172,9 @@ class Tree {
 
 }  // namespace
 
-Foliage grow_tree(const TreeSpec& spec) { return Tree(spec).grow(); }
+Foliage grow_tree(const TreeSpec& spec) {
+  return Tree(spec).grow();
+}
 
 Foliage grow_hedge(const HedgeSpec& spec) {
   const Dice dice(spec.seed);

@@ -22,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Cuts a face into triangles, as it looks along the axis that it faces most: leaving out a coordinate is exact, where turning it into its plane is not.
+/// Cuts a face into triangles, as it looks along the axis that it faces most: leaving out a coordinate is exact, where turning it into its
+/// plane is not.
 class FaceCutter {
  public:
   explicit FaceCutter(const std::vector<glm::dvec3>& vertices) : vertices_(vertices) {}
@@ -146,7 +147,8 @@ Result<ObjFile> read_obj(const fs::path& file, const ObjOptions& options) {
   ObjFile result;
   result.materials = read_materials(*text, file, result.notices);
   if (text->left_out > 0)
-    result.notices.push_back(fmt::format("{}: {} lines, points, curves or surfaces have been left out: only faces are matter", name, text->left_out));
+    result.notices.push_back(
+        fmt::format("{}: {} lines, points, curves or surfaces have been left out: only faces are matter", name, text->left_out));
 
   if (options.y_up)
     for (glm::dvec3& v : text->vertices) v = {v.x, -v.z, v.y};
@@ -156,8 +158,8 @@ Result<ObjFile> read_obj(const fs::path& file, const ObjOptions& options) {
   soup.vertices = std::move(welded.vertices);
   soup.names = text->materials;
   if (const std::size_t degenerate = cut_faces(*text, welded.index, soup); degenerate > 0)
-    result.notices.push_back(fmt::format("{}: {} triangle{} with two equal corners {} been left out", name, degenerate, degenerate == 1 ? "" : "s",
-                                         degenerate == 1 ? "has" : "have"));
+    result.notices.push_back(fmt::format("{}: {} triangle{} with two equal corners {} been left out", name, degenerate,
+                                         degenerate == 1 ? "" : "s", degenerate == 1 ? "has" : "have"));
   if (soup.triangles.empty()) return Error{file.string() + ": has no faces but such with two equal corners, expected one that has an area"};
   text = ObjText{};  // no longer needed, and large
   result.pieces = take_apart(soup, name, result.notices);

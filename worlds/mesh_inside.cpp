@@ -66,7 +66,8 @@ bool MeshInside::holds(const glm::dvec3& p) {
   bool odd = false;
   for (std::size_t m = begin_[at]; m < begin_[at + 1]; ++m) {
     const glm::uvec3& t = (*triangles_)[members_[m]];
-    // Seen from above, the point lies in the triangle if an odd number of its edges lie to the right: neighbours agree on the edge that they share.
+    // Seen from above, the point lies in the triangle if an odd number of its edges lie to the right: neighbours agree on the edge that
+    // they share.
     bool above = false;
     for (int i = 0; i < 3; ++i) {
       const glm::dvec2 a((*vertices_)[t[i]]), b((*vertices_)[t[(i + 1) % 3]]);

@@ -66,8 +66,8 @@ struct Partition {
   Index count = 0;
 };
 
-/// Parts that hang together by edges within their group: by all of them, or only by those of two triangles. (Only by a corner is not together: two cubes that
-/// touch there are two.)
+/// Parts that hang together by edges within their group: by all of them, or only by those of two triangles. (Only by a corner is not
+/// together: two cubes that touch there are two.)
 Partition partition(const Triangles& triangles, const Labels& groups, bool only_by_pairs) {
   Joined joined(triangles.size());
   for_each_edge(edge_passes(triangles, groups), [&](std::span<const EdgePass> edge) {
@@ -103,7 +103,8 @@ std::vector<Judgement> judge(const Triangles& triangles, const Partition& parts)
   return result;
 }
 
-/// Turns triangles of the parts that are paired but not balanced until they are; how many parts that were. What has only one side stays as it is.
+/// Turns triangles of the parts that are paired but not balanced until they are; how many parts that were. What has only one side stays as
+/// it is.
 std::size_t make_consistent(Triangles& triangles, const Partition& parts, std::vector<Judgement>& judgements) {
   const auto mendable = [&](Index part) { return judgements[part].paired && !judgements[part].balanced; };
   bool any = false;
@@ -150,8 +151,8 @@ void measure(Volume& v, const std::vector<glm::dvec3>& vertices) {
   }
 }
 
-/// Finds which volumes of one material shall face inward. Only needed where they do not all face the same way: then what faces the other way than the part
-/// around it is a cavity in it, and what has none around it, or lies in a cavity, faces outward.
+/// Finds which volumes of one material shall face inward. Only needed where they do not all face the same way: then what faces the other
+/// way than the part around it is a cavity in it, and what has none around it, or lies in a cavity, faces outward.
 void decide_directions(std::vector<Volume*>& volumes, const std::vector<glm::dvec3>& vertices) {
   const auto faces_inward = [](const Volume* v) { return v->volume < 0.0; };
   if (std::all_of(volumes.begin(), volumes.end(), faces_inward) || std::none_of(volumes.begin(), volumes.end(), faces_inward)) return;
@@ -223,16 +224,20 @@ std::size_t remove_doubled(Triangles& triangles) {
   return doubled;
 }
 
-std::string counted(std::size_t count, std::string_view thing) { return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s"); }
+std::string counted(std::size_t count, std::string_view thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
 
 class Apart {
  public:
-  Apart(const TriangleSoup& soup, const std::string& name, std::vector<std::string>& notices) : soup_(soup), name_(name), notices_(notices) {}
+  Apart(const TriangleSoup& soup, const std::string& name, std::vector<std::string>& notices)
+      : soup_(soup), name_(name), notices_(notices) {}
 
   std::vector<MeshPiece> pieces() {
     Triangles triangles = soup_.triangles;
     Labels materials = soup_.materials;
-    // First by edges of two triangles, so that parts that touch along an edge, or a whole face, are told apart; what is not closed then, by all edges.
+    // First by edges of two triangles, so that parts that touch along an edge, or a whole face, are told apart; what is not closed then, by
+    // all edges.
     take_closed(triangles, materials, true);
     take_closed(triangles, materials, false);
     tell(mended_, "closed part", "closed parts", "had faces that turned different ways: they have been turned alike");
@@ -318,8 +323,9 @@ class Apart {
     }
     const auto say = [&](const Sum& sum, std::string_view which, std::string_view why) {
       if (sum.parts > 0)
-        notices_.push_back(fmt::format("{}: {} {} ({}{}) {}", name_, counted(sum.parts, which), sum.parts == 1 ? "is a thin sheet" : "are thin sheets",
-                                       counted(sum.triangles, "triangle"), sum.boundary > 0 ? ", " + counted(sum.boundary, "boundary edge") : "", why));
+        notices_.push_back(fmt::format("{}: {} {} ({}{}) {}", name_, counted(sum.parts, which),
+                                       sum.parts == 1 ? "is a thin sheet" : "are thin sheets", counted(sum.triangles, "triangle"),
+                                       sum.boundary > 0 ? ", " + counted(sum.boundary, "boundary edge") : "", why));
     };
     say(open, "open part", "instead of volumes, since they do not close");
     say(several, "closed part", "instead of volumes, since faces of several materials close them only together");

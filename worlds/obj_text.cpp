@@ -20,10 +20,12 @@ namespace thicket {
 namespace {
 
 constexpr std::size_t max_vertices = 100'000'000, max_triangles = 20'000'000, max_faults = 20;
-constexpr std::size_t max_number_length = 64;  // tinyobj overflows on digits that an exponent would take back
-constexpr double max_coordinate = 1e12;        // far beyond any world, and the squares still fit Embree's floats
+constexpr std::size_t max_number_length = 64;
+constexpr double max_coordinate = 1e12;  // far beyond any world, and the squares still fit Embree's floats
 
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
+bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
 
 /// One line, or several that were joined, cut at its blanks.
 class Words {
@@ -53,7 +55,8 @@ class Words {
   std::size_t at_ = 0;
 };
 
-/// A text in the form that tinyobjloader takes: every line ends with '\n', joined lines are one, and nothing follows the data of a line. Offsets stay as they were.
+/// A text in the form that tinyobjloader takes: every line ends with '\n', joined lines are one, and nothing follows the data of a line.
+/// Offsets stay as they were.
 class Lines {
  public:
   explicit Lines(std::string text) : text_(std::move(text)) {
@@ -81,7 +84,8 @@ class Lines {
         continue;
       }
       if (first == '\n' && !is_blank(c)) first = c;
-      if (c == '#' && (first == '#' || first == 'v' || first == 'f')) comment = true;
+      const bool begins = i == 0 || is_blank(text_[i - 1]) || text_[i - 1] == '\n';  // "1.#IND" has no comment
+      if (c == '#' && begins && (first == '#' || first == 'v' || first == 'f')) comment = true;
       if (comment && first != '#') c = ' ';
     }
   }
@@ -138,8 +142,11 @@ class Checker {
 
   std::optional<Error> check() {
     count();
-    if (total_.vertices > max_vertices) return Error{fmt::format("{}: has {} vertices, expected at most {}", name_, total_.vertices, max_vertices)};
-    if (triangles_ > max_triangles) return Error{fmt::format("{}: has faces for {} triangles, expected at most {}", name_, triangles_, max_triangles)};
+    if (total_.vertices > max_vertices)
+      return Error{fmt::format("{}: has {} vertices, expected at most {}", name_, total_.vertices, max_vertices)};
+    if (triangles_ > max_triangles)
+      return Error{fmt::format("{}: has faces for {} triangles, expected at most {}", name_, triangles_, max_triangles)};
+    vertices_.reserve(total_.vertices);
     lines_.for_each([&](std::string_view line, std::size_t offset) { check_line(line, offset); });
     if (more_ > 0) faults_.take(Error{fmt::format("{}: and {} more", name_, more_)});
     if (!faults_.none()) return faults_.error();
@@ -147,7 +154,8 @@ class Checker {
     return std::nullopt;
   }
 
-  std::size_t vertices() const { return total_.vertices; }
+  /// Rounded right, where tinyobj's reading of "0.75" is 1.1e-16 off: what is written at the same place in a world file shall be there.
+  std::vector<glm::dvec3> take_vertices() { return std::move(vertices_); }
   std::size_t faces() const { return faces_; }
   std::size_t triangles() const { return triangles_; }
 
@@ -183,7 +191,8 @@ class Checker {
   }
 
   void check_line(std::string_view line, std::size_t offset) {
-    if (const std::size_t zero = line.find('\0'); zero != std::string_view::npos) return fault(offset + zero, "holds a zero byte, expected text");
+    if (const std::size_t zero = line.find('\0'); zero != std::string_view::npos)
+      return fault(offset + zero, "holds a zero byte, expected text");
     Words words(line);
     const std::size_t begin = offset + words.offset();
     const std::string_view what = words.next();
@@ -193,16 +202,21 @@ class Checker {
 
   void check_vertex(Words& words, std::size_t offset, std::size_t begin) {
     int numbers = 0;
+    glm::dvec3 vertex(0.0);
     for (; !words.end(); ++numbers) {
       const std::size_t at = offset + words.offset();
       const std::string_view word = words.next();
       const auto number = number_of<double>(word);
       if (!number || !std::isfinite(*number) || word.size() > max_number_length) {
-        fault(at, fmt::format("'{}' is not a finite number, expected three of at most {} characters after 'v'", printable(word), max_number_length));
+        fault(at, fmt::format("'{}' is not a finite number, expected three of at most {} characters after 'v'", printable(word),
+                              max_number_length));
       } else if (numbers < 3 && std::abs(*number) > max_coordinate) {
         fault(at, fmt::format("'{}' is too far away, expected a coordinate within {} of 0", printable(word), max_coordinate));
+      } else if (numbers < 3) {
+        vertex[numbers] = *number;
       }
     }
+    vertices_.push_back(vertex);
     if (numbers < 3) fault(begin, fmt::format("a vertex of {} number{}, expected three", numbers, numbers == 1 ? "" : "s"));
   }
 
@@ -240,6 +254,7 @@ class Checker {
   const Lines& lines_;
   std::string name_;
   Faults faults_;
+  std::vector<glm::dvec3> vertices_;
   std::size_t told_ = 0, more_ = 0, faces_ = 0, triangles_ = 0;
   Counts total_, so_far_;
 };
@@ -247,6 +262,7 @@ class Checker {
 /// Takes what tinyobjloader reads. (Its callbacks, since its own shapes count a face's corners in one byte.)
 struct Collector {
   ObjText text;
+  int vertices = 0;  // so far
   std::map<std::string, std::uint32_t, std::less<>> numbers;
   std::string material;
   std::optional<std::uint32_t> number;  // of the material, once a face has used it
@@ -260,7 +276,7 @@ struct Collector {
     text.faces.push_back({static_cast<std::uint32_t>(text.corners.size()), static_cast<std::uint32_t>(count), *number});
     for (int i = 0; i < count; ++i) {
       const int index = indices[i].vertex_index;
-      text.corners.push_back(static_cast<std::uint32_t>(index > 0 ? index - 1 : static_cast<int>(text.vertices.size()) + index));
+      text.corners.push_back(static_cast<std::uint32_t>(index > 0 ? index - 1 : vertices + index));
     }
   }
 };
@@ -284,7 +300,7 @@ Result<ObjText> parse_obj(std::string text, const std::string& name) {
   if (auto error = checker.check()) return *error;
 
   Collector collector;
-  collector.text.vertices.reserve(checker.vertices());
+  collector.text.vertices = checker.take_vertices();
   collector.text.faces.reserve(checker.faces());
   collector.text.corners.reserve(checker.triangles() + 2 * checker.faces());
   lines.for_each([&](std::string_view line, std::size_t) {
@@ -295,7 +311,7 @@ Result<ObjText> parse_obj(std::string text, const std::string& name) {
   });
 
   tinyobj::callback_t callbacks;
-  callbacks.vertex_cb = [](void* to, double x, double y, double z, double) { static_cast<Collector*>(to)->text.vertices.emplace_back(x, y, z); };
+  callbacks.vertex_cb = [](void* to, double, double, double, double) { ++static_cast<Collector*>(to)->vertices; };
   callbacks.index_cb = [](void* to, tinyobj::index_t* indices, int count) { static_cast<Collector*>(to)->add_face(indices, count); };
   callbacks.usemtl_cb = [](void* to, const char* material, int) {
     static_cast<Collector*>(to)->material = Words(material).rest();
@@ -315,7 +331,8 @@ void parse_mtl(std::string text, const std::string& name, std::map<std::string, 
     const auto word = bad_dissolve(line);
     if (!word) return;
     bad.emplace_back(offset, line.size());
-    notices.push_back(fmt::format("{}: the dissolve '{}' is left out, expected a number from 0 to 1", to_string(lines.place(name, offset)), printable(*word)));
+    notices.push_back(fmt::format("{}: the dissolve '{}' is left out, expected a number from 0 to 1", to_string(lines.place(name, offset)),
+                                  printable(*word)));
   });
   for (const auto& [offset, length] : bad) lines.blank_out(offset, length);
 

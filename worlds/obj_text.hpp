@@ -30,7 +30,8 @@ struct ObjText {
 /// `name` stands in messages. Errors as `read_obj` has them.
 Result<ObjText> parse_obj(std::string text, const std::string& name);
 
-/// Adds the dissolve of each material that an MTL text defines, 0...1 (the first definition of a name counts), and a notice for each that is not such a number.
+/// Adds the dissolve of each material that an MTL text defines, 0...1 (the first definition of a name counts), and a notice for each that
+/// is not such a number.
 void parse_mtl(std::string text, const std::string& name, std::map<std::string, double>& dissolve, std::vector<std::string>& notices);
 
 }  // namespace thicket

@@ -16,8 +16,8 @@ namespace {
 
 using Index = std::uint32_t;
 
-/// A sum of doubles without rounding: the parts do not overlap and grow in magnitude (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast
-/// robust geometric predicates", GROW-EXPANSION).
+/// A sum of doubles without rounding: the parts do not overlap and grow in magnitude (Shewchuk 1997, "Adaptive precision floating-point
+/// arithmetic and fast robust geometric predicates", GROW-EXPANSION).
 class ExactSum {
  public:
   void add(double value) {
@@ -65,9 +65,13 @@ bool boxes_apart(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, 
          std::max(c.y, d.y) < std::min(a.y, b.y);
 }
 
-bool on_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) { return in_box(p, a, b) && orientation(a, b, p) == 0.0; }
+bool on_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
+  return in_box(p, a, b) && orientation(a, b, p) == 0.0;
+}
 
-bool opposite(double a, double b) { return (a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0); }
+bool opposite(double a, double b) {
+  return (a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0);
+}
 
 bool cross_properly(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d) {
   return opposite(orientation(a, b, c), orientation(a, b, d)) && opposite(orientation(c, d, a), orientation(c, d, b));
@@ -92,7 +96,9 @@ bool inside(const glm::dvec2& p, const Ring& ring) {
 
 // ---- Faults
 
-std::string in_words(const glm::dvec2& p) { return fmt::format("[{}, {}]", p.x, p.y); }
+std::string in_words(const glm::dvec2& p) {
+  return fmt::format("[{}, {}]", p.x, p.y);
+}
 
 std::string edge_in_words(const Ring& ring, std::size_t edge) {
   return fmt::format("edge {} ({} to {})", edge + 1, in_words(ring[edge]), in_words(ring[(edge + 1) % ring.size()]));
@@ -127,9 +133,9 @@ std::optional<std::string> ring_fault(const Ring& ring, const std::string& name)
       const glm::dvec2 &a = ring[i], &b = ring[(i + 1) % n], &c = ring[j], &d = ring[(j + 1) % n];
       if (boxes_apart(a, b, c, d)) continue;
       // Neighbours share a point, and may share no more.
-      const bool meet = j == i + 1              ? on_segment(d, a, b) || on_segment(a, c, d)
+      const bool meet = j == i + 1             ? on_segment(d, a, b) || on_segment(a, c, d)
                         : i == 0 && j == n - 1 ? on_segment(c, a, b) || on_segment(b, c, d)
-                                                : segments_meet(a, b, c, d);
+                                               : segments_meet(a, b, c, d);
       if (meet) return fmt::format("{} meets itself: {} and {}", name, edge_in_words(ring, i), edge_in_words(ring, j));
     }
   return std::nullopt;
@@ -145,7 +151,8 @@ std::optional<std::string> rings_meet(const Ring& r, const std::string& r_name, 
 
 // ---- Triangles
 
-/// One closed chain of points, each the index of one; several places in the chain may hold the same point, where a hole has been joined to it.
+/// One closed chain of points, each the index of one; several places in the chain may hold the same point, where a hole has been joined to
+/// it.
 class EarClipper {
  public:
   EarClipper(const std::vector<glm::dvec2>& points, const std::vector<Index>& chain) : points_(points), point_(chain) {
@@ -175,7 +182,8 @@ class EarClipper {
       if (!ear_[at]) {
         at = next_[at];
         if (++searched < left) continue;
-        // Clipping may have freed an ear that was covered. Where that is not so, the polygon is not simple, and any corner is as good as another.
+        // Clipping may have freed an ear that was covered. Where that is not so, the polygon is not simple, and any corner is as good as
+        // another.
         if (!refreshed) {
           for (Index k = 0; k < left; ++k, at = next_[at]) ear_[at] = is_ear(at);
           refreshed = true;
@@ -199,8 +207,8 @@ class EarClipper {
   const glm::dvec2& where(Index i) const { return points_[point_[i]]; }
   bool is_convex(Index i) const { return orientation(where(previous_[i]), where(i), where(next_[i])) > 0.0; }
 
-  /// Whether the triangle of a corner and its neighbours is convex and holds no other corner, inside or on its edge. It is enough to look at those that are
-  /// not convex: the one that lies deepest in the triangle is such.
+  /// Whether the triangle of a corner and its neighbours is convex and holds no other corner, inside or on its edge. It is enough to look
+  /// at those that are not convex: the one that lies deepest in the triangle is such.
   bool is_ear(Index i) const {
     if (!convex_[i]) return false;
     const glm::dvec2 &a = where(previous_[i]), &b = where(i), &c = where(next_[i]);
@@ -221,7 +229,8 @@ class EarClipper {
     previous_[after] = before;
     convex_[i] = true;  // out of the way
     ear_[i] = false;
-    // (In what is not simple a neighbour may lose its convexity. It is then not among the blunt ones, which costs nothing that was not lost.)
+    // (In what is not simple a neighbour may lose its convexity. It is then not among the blunt ones, which costs nothing that was not
+    // lost.)
     for (const Index k : {before, after}) convex_[k] = is_convex(k);
     for (const Index k : {before, after}) ear_[k] = is_ear(k);
     if (++clipped_ % 256 == 0) std::erase_if(blunt_, [&](Index k) { return convex_[k]; });
@@ -236,7 +245,8 @@ class EarClipper {
 
 /// Whether the way from corner k of a chain to a point starts into the chain's inside.
 bool starts_inside(const std::vector<glm::dvec2>& points, const std::vector<Index>& chain, std::size_t k, const glm::dvec2& to) {
-  const glm::dvec2 &before = points[chain[(k + chain.size() - 1) % chain.size()]], &at = points[chain[k]], &after = points[chain[(k + 1) % chain.size()]];
+  const glm::dvec2 &before = points[chain[(k + chain.size() - 1) % chain.size()]], &at = points[chain[k]],
+                   &after = points[chain[(k + 1) % chain.size()]];
   if (orientation(before, at, after) > 0.0) return orientation(at, to, before) > 0.0 && orientation(to, at, after) > 0.0;
   return !(orientation(at, to, after) >= 0.0 && orientation(to, at, before) >= 0.0);
 }
@@ -252,9 +262,11 @@ bool hinders(const std::vector<glm::dvec2>& points, const std::vector<Index>& ch
   return false;
 }
 
-/// Joins a hole to the chain around it: from a corner of the chain to the hole's rightmost point, around the hole, and back. Holes are taken from right to left,
-/// so that this point always sees a corner of the chain that does not lie to its left (Eberly 2008, "Triangulation by ear clipping", section 3).
-void join_hole(const std::vector<glm::dvec2>& points, std::vector<Index>& chain, const std::vector<Index>& hole, const std::vector<std::vector<Index>>& later) {
+/// Joins a hole to the chain around it: from a corner of the chain to the hole's rightmost point, around the hole, and back. Holes are
+/// taken from right to left, so that this point always sees a corner of the chain that does not lie to its left (Eberly 2008,
+/// "Triangulation by ear clipping", section 3).
+void join_hole(const std::vector<glm::dvec2>& points, std::vector<Index>& chain, const std::vector<Index>& hole,
+               const std::vector<std::vector<Index>>& later) {
   const std::size_t start = static_cast<std::size_t>(
       std::max_element(hole.begin(), hole.end(), [&](Index i, Index j) { return points[i].x < points[j].x; }) - hole.begin());
   const glm::dvec2& from = points[hole[start]];

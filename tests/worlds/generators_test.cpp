@@ -33,7 +33,9 @@ double projection(const Mesh& mesh, const glm::dvec3& direction) {
   return sum / area(mesh);
 }
 
-bool same(const Mesh& a, const Mesh& b) { return a.vertices == b.vertices && a.triangles == b.triangles; }
+bool same(const Mesh& a, const Mesh& b) {
+  return a.vertices == b.vertices && a.triangles == b.triangles;
+}
 
 }  // namespace
 
@@ -51,7 +53,8 @@ TEST_CASE("a tree has the wood and leaves that were asked for, in their place") 
   // Within the crown, as far as a leaf reaches.
   double farthest = 0.0;
   for (const glm::dvec3& v : tree.leaves->vertices) {
-    const glm::dvec3 half(spec.crown_radius + spec.leaf_size, spec.crown_radius + spec.leaf_size, 0.5 * (spec.height - spec.crown_base) + spec.leaf_size);
+    const glm::dvec3 half(spec.crown_radius + spec.leaf_size, spec.crown_radius + spec.leaf_size,
+                          0.5 * (spec.height - spec.crown_base) + spec.leaf_size);
     farthest = std::max(farthest, glm::length((v - glm::dvec3(0.0, 0.0, 0.5 * (spec.height + spec.crown_base))) / half));
   }
   CHECK(farthest <= 1.0);
@@ -113,7 +116,8 @@ TEST_CASE("leaves show half of their area to every side") {
   hedge.leaves_per_m3 = 12000.0;
   for (const auto& leaves : {grow_tree(tree).leaves, grow_hedge(hedge).leaves}) {
     REQUIRE(leaves->triangles.size() >= 40000);
-    for (const glm::dvec3& direction : {glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0.6, 0, 0.8), glm::dvec3(0, 0.6, -0.8)})
+    for (const glm::dvec3& direction :
+         {glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0.6, 0, 0.8), glm::dvec3(0, 0.6, -0.8)})
       CHECK(std::abs(projection(*leaves, direction) - 0.5) < 0.0085);
   }
 }

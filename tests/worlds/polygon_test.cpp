@@ -52,7 +52,9 @@ Ring reversed(Ring ring) {
   return ring;
 }
 
-Ring square(double low, double high) { return {{low, low}, {high, low}, {high, high}, {low, high}}; }
+Ring square(double low, double high) {
+  return {{low, low}, {high, low}, {high, high}, {low, high}};
+}
 
 /// About a centre, at sorted bearings: simple.
 template <class Engine>
@@ -98,7 +100,8 @@ TEST_CASE("the orientation of three points is exact where rounding would decide"
 
 TEST_CASE("polygons of either direction are cut into counter-clockwise triangles of their area") {
   const Ring l_shape = {{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}};
-  const Ring comb = {{0, 0}, {7, 0}, {7, 3}, {6, 3}, {6, 1}, {5, 1}, {5, 3}, {4, 3}, {4, 1}, {3, 1}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
+  const Ring comb = {{0, 0}, {7, 0}, {7, 3}, {6, 3}, {6, 1}, {5, 1}, {5, 3}, {4, 3},
+                     {4, 1}, {3, 1}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
   const Ring on_lines = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
   for (const Ring& ring : {l_shape, comb, on_lines}) {
     CHECK(triangulated_area(ring, {}) == area(ring));
@@ -110,7 +113,8 @@ TEST_CASE("polygons of either direction are cut into counter-clockwise triangles
 
 TEST_CASE("holes are left out, whichever way they run") {
   const Ring outline = square(0, 10);
-  const std::vector<Ring> holes = {square(1, 2), reversed(square(4, 6)), square(7, 9), {{1, 8}, {3, 8}, {3, 9}, {2, 8.5}}, {{7, 1}, {9, 1}, {9, 2}, {7, 2}}};
+  const std::vector<Ring> holes = {
+      square(1, 2), reversed(square(4, 6)), square(7, 9), {{1, 8}, {3, 8}, {3, 9}, {2, 8.5}}, {{7, 1}, {9, 1}, {9, 2}, {7, 2}}};
   CHECK_FALSE(polygon_fault(outline, holes).has_value());
   CHECK(triangulated_area(outline, holes) == doctest::Approx(100.0 - 1.0 - 4.0 - 4.0 - area(holes[3]) - 2.0).epsilon(1e-14));
   check_prism(outline, holes, 3.0);
@@ -136,7 +140,8 @@ TEST_CASE("random stars with star-shaped holes give closed prisms of their volum
     const int count = *rc::gen::inRange(0, 5);
     for (int i = 0; i < count; ++i) {
       const double bearing = 2.0 * pi * i / 4.0 + 0.3;
-      holes.push_back(star(engine, *rc::gen::inRange(3, 12), glm::dvec2(far, -far) + 2.0 * glm::dvec2(std::cos(bearing), std::sin(bearing)), 0.2, 1.0));
+      holes.push_back(
+          star(engine, *rc::gen::inRange(3, 12), glm::dvec2(far, -far) + 2.0 * glm::dvec2(std::cos(bearing), std::sin(bearing)), 0.2, 1.0));
     }
     // Stars of few corners may cut their chords through the middle: those are none of this test.
     if (polygon_fault(outline, holes)) return;

@@ -36,13 +36,15 @@ struct ObjFile {
 
 /// Reads an OBJ file and the MTL files that it names (beside it), metres. Vertices at the same place are one.
 ///
-/// A part (faces that hang together by edges, of one material) that is closed becomes a volume: made consistent where faces of a closed part turn different ways,
-/// and turned outward unless it is a cavity (inside a part of the same material that faces the other way). Everything else becomes thin sheets: what has holes
-/// or is closed only by several materials together, and what is closed but holds no volume.
+/// A part (faces that hang together by edges, of one material) that is closed becomes a volume: made consistent where faces of a closed
+/// part turn different ways, and turned outward unless it is a cavity (inside a part of the same material that faces the other way).
+/// Everything else becomes thin sheets: what has holes or is closed only by several materials together, and what is closed but holds no
+/// volume.
 ///
-/// Errors: all faults of the file, up to 20, as `file:line:column: what, expected`: an index that is 0 or out of range (also of texture coordinates and normals), a
-/// vertex without three finite numbers, or farther than 1e12 from 0, a face of fewer than three corners. Also a file without faces, and one that has more than 1e8
-/// vertices or faces for more than 2e7 triangles. An MTL file that cannot be read is a notice.
+/// Errors: all faults of the file, up to 20, as `file:line:column: what, expected`: an index that is 0 or out of range (also of texture
+/// coordinates and normals), a vertex without three finite numbers, or farther than 1e12 from 0, a face of fewer than three corners. Also a
+/// file without faces, and one that has more than 1e8 vertices or faces for more than 2e7 triangles. An MTL file that cannot be read is a
+/// notice.
 Result<ObjFile> read_obj(const std::filesystem::path& file, const ObjOptions& options = {});
 
 }  // namespace thicket
