@@ -206,7 +206,7 @@ TEST_CASE("a gap closes at exactly twice what obstacles are grown by") {
     const double half = 0.5 * gap;
     w.add(Box{{0.5, 4.0, 1.0}}, {4.0, half + 2.0, 0.5});
     w.add(Box{{0.5, 4.0, 1.0}}, {4.0, -half - 2.0, 0.5});
-    const TruthGrid grid = grown_obstacles(w.world, {0.0, -2.0625}, {8.0, 2.0625}, 0.125, grow, 0.0, 0.5);
+    const TruthGrid grid = *grown_obstacles(w.world, {0.0, -2.0625}, {8.0, 2.0625}, 0.125, grow, 0.0, 0.5);
     return connected(grid, {0.5, 0.0}, {7.5, 0.0});
   };
   CHECK(passes(1.0, 0.5));
@@ -221,7 +221,7 @@ TEST_CASE("obstacles grow by an exact distance, round at corners") {
   HandMadeWorld w;
   w.add(Box{{1.0, 1.0, 1.0}}, {0.0, 0.0, 0.5});
   // Centres at whole and half metres: at (1.5, 0) the distance is 1, at (1, 1) it is 0.707, at (1.5, 1) 1.118, at (1.5, 1.5) 1.414.
-  const auto grown = [&](double grow) { return drawn(grown_obstacles(w.world, {-2.25, -2.25}, {2.25, 2.25}, 0.5, grow, 0.0, 0.5)); };
+  const auto grown = [&](double grow) { return drawn(*grown_obstacles(w.world, {-2.25, -2.25}, {2.25, 2.25}, 0.5, grow, 0.0, 0.5)); };
   // A centre on the very edge is not nearer than nothing: nothing grown, nothing blocked but what is nearer than 0, and that is none.
   CHECK(grown(0.0) == Rows(9, "........."));
   CHECK(grown(0.01) == Rows{".........",  //
@@ -261,7 +261,7 @@ TEST_CASE("obstacles are what stops motion at the heights of the hull") {
   w.add(Cylinder{0.4, 1.0}, {2.5, 0.5, 2.5}, 0.0, hard);  // from 2 m to 3 m
   w.add(Sphere{0.5}, {3.5, 0.5, 1.4}, 0.0, hard);         // from 0.9 m to 1.9 m
   const auto at = [&](double z_low, double z_high) {
-    return drawn(grown_obstacles(w.world, {0.0, 0.0}, {5.0, 1.0}, 1.0, 0.05, z_low, z_high)).at(0);
+    return drawn(*grown_obstacles(w.world, {0.0, 0.0}, {5.0, 1.0}, 1.0, 0.05, z_low, z_high)).at(0);
   };
   CHECK(at(0.0, 0.5) == "#....");
   CHECK(at(0.0, 0.95) == "#..#.");
@@ -277,7 +277,7 @@ TEST_CASE("distances that obstacles grow by, for every shape") {
     HandMadeWorld w;
     w.add(shape, position, yaw);
     const auto blocked = [&](double grow) {
-      const TruthGrid grid = grown_obstacles(w.world, glm::dvec2(-0.5), glm::dvec2(0.5), 1.0, grow, 0.0, 0.5);
+      const TruthGrid grid = *grown_obstacles(w.world, glm::dvec2(-0.5), glm::dvec2(0.5), 1.0, grow, 0.0, 0.5);
       REQUIRE(grid.blocked.size() == 1);
       return grid.blocked[0] != 0;
     };
@@ -298,7 +298,7 @@ TEST_CASE("distances that obstacles grow by, for every shape") {
 }
 
 TEST_CASE("the grid covers what was asked for, to whole cells") {
-  const TruthGrid grid = grown_obstacles(World{}, {-1.0, 2.0}, {1.05, 3.0}, 0.1, 0.3, 0.0, 1.0);
+  const TruthGrid grid = *grown_obstacles(World{}, {-1.0, 2.0}, {1.05, 3.0}, 0.1, 0.3, 0.0, 1.0);
   CHECK(grid.width == 21);
   CHECK(grid.height == 10);
   CHECK(grid.blocked.size() == 210);
