@@ -96,26 +96,17 @@ bool same_file(const fs::path& a, const fs::path& b) {
   return fs::equivalent(a, b, none) && !none;
 }
 
-/// The image that a map_server YAML names, for comparing; empty if it is not found at a glance.
-fs::path image_of(const fs::path& yaml) {
-  const auto text = read_text_file(yaml);
-  const auto key = text ? text->find("image:") : std::string::npos;
-  if (key == std::string::npos) return {};
-  std::string name = text->substr(key + 6, text->find_first_of("\r\n#", key) - key - 6);
-  for (const char* outside = " \t'\""; !name.empty() && std::string(outside).find(name.front()) != std::string::npos;) name.erase(0, 1);
-  name.erase(name.find_last_not_of(" \t'\"") + 1);
-  return yaml.parent_path() / name;
-}
-
-/// What a command would write must not be what it reads.
+/// What a command would write must not be what it reads: the input, or a file that its text names.
 std::optional<Error> overwrites(const std::vector<fs::path>& outputs, const fs::path& in, const fs::path& map_image) {
-  std::vector<fs::path> inputs = {in};
-  if (!map_image.empty()) inputs.push_back(map_image);
   const std::string ending = in.extension().string();
-  if (map_image.empty() && (ending == ".yaml" || ending == ".yml")) inputs.push_back(image_of(in));
-  for (const fs::path& out : outputs)
-    for (const fs::path& input : inputs)
-      if (same_file(out, input)) return Error{fmt::format("{}: would be overwritten while it is read, expected another name to write to", out.string())};
+  const bool names_files = ending == ".toml" || ending == ".yaml" || ending == ".yml";
+  const auto text = names_files ? read_text_file(in) : Result<std::string>(std::string{});
+  std::error_code none;
+  for (const fs::path& out : outputs) {
+    const bool named = fs::exists(out, none) && text && text->find(out.filename().string()) != std::string::npos;
+    if (named || same_file(out, in) || same_file(out, map_image))
+      return Error{fmt::format("{}: would be overwritten while it is read, expected another name to write to", out.string())};
+  }
   return std::nullopt;
 }
 
