@@ -18,6 +18,7 @@ SectionOf<Mission> header_section() {
       .key("world", &S::world, "world file or map_server YAML, relative to this file, else a shipped one")
       .required()
       .key("world_image", &S::world_image, "for a map_server world: an image to read instead of the one that it names")
+      .key("world_cell_size_m", &S::world_cell_size_m, "m", above_up_to(0.0, 1e6), "for a MovingAI .map world: size of a cell; 1 if it is not given")
       .key("world_height_m", &S::world_height_m, "m", above_up_to(0.0, 1e4), "for a map_server world: how high its matter is")
       .key("world_unknown_is_matter", &S::world_unknown_is_matter, "for a map_server world: whether unknown cells are matter")
       .key("seed", &S::seed, "", at_least(0.0), "of everything random: one seed, one result")
@@ -279,7 +280,7 @@ std::string describe_mission_file() {
 }
 
 Result<World> read_mission_world(const Mission& mission) {
-  return read_world(mission.world_file, {mission.image_file, mission.world_unknown_is_matter, mission.world_height_m});
+  return read_world(mission.world_file, {mission.image_file, mission.world_unknown_is_matter, mission.world_height_m, mission.world_cell_size_m});
 }
 
 std::vector<std::string> vehicle_presets() { return shipped_names("sim/presets"); }

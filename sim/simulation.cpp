@@ -23,6 +23,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_;
 };
 
+/// How much farther than the least clearance so far is looked, m: the farther, the rarer the next look, but the dearer this one.
+constexpr double look_ahead = 0.5;
+
 /// The planner is driven by the first sensor.
 constexpr std::size_t planning_sensor = 0;
 
@@ -70,11 +73,12 @@ Simulation::Simulation(std::shared_ptr<const Stage> stage, std::unique_ptr<Plann
       bumpers_(make_bumpers(stage_->mission)),
       map_(stage_->mission.map),
       scans_(stage_->sensors.size()),
-      scan_counts_(stage_->sensors.size()) {
+      scan_counts_(stage_->sensors.size()),
+      scene_(stage_->scene) {
   vehicle_.pose = start_pose(stage_->mission);
   stuck_pose_ = vehicle_.pose;
-  clearance_ = stage_->scene.clearance(stage_->mission.vehicle.hull(), vehicle_pose().position, infinity);
-  totals_.least_clearance = clearance_.distance;
+  clearance_ = scene_.clearance(stage_->mission.vehicle.hull(), vehicle_pose().position, infinity);
+  totals_.least_clearance = clear_of_ = clearance_.distance;
   if (clearance_.distance <= 0.0)
     verdict_ = {Verdict::Kind::collided, fmt::format("the hull touches '{}' at the start", stage_->scene.world().solids[clearance_.solid].name)};
 }
@@ -90,7 +94,9 @@ Simulation::Simulation(const Simulation& other)
       scans_(other.scans_),
       scan_counts_(other.scan_counts_),
       decision_(other.decision_),
+      scene_(other.scene_),
       clearance_(other.clearance_),
+      clear_of_(other.clear_of_),
       totals_(other.totals_),
       times_(other.times_),
       verdict_(other.verdict_),
@@ -117,6 +123,7 @@ bool Simulation::step() {
 }
 
 void Simulation::sense() {
+  scene_.set_time(time());
   for (std::size_t i = 0; i < stage_->sensors.size(); ++i) {
     const Sensor& sensor = *stage_->sensors[i];
     const double due = static_cast<double>(scan_counts_[i]) / sensor.spec().rate_hz;
@@ -127,7 +134,7 @@ void Simulation::sense() {
     {
       const Stopwatch watch(times_.trace);
       const Random random(static_cast<std::uint64_t>(stage_->mission.seed), static_cast<std::uint16_t>(i));
-      sensor.measure(stage_->scene, vehicle_pose(), time(), scan_counts_[i] - 1, random, scan);
+      sensor.measure(scene_, vehicle_pose(), time(), scan_counts_[i] - 1, random, scan);
     }
     ++totals_.scans;
     totals_.rays += scan.rays;
@@ -157,23 +164,28 @@ void Simulation::move() {
   const Mission& mission = stage_->mission;
   const Arc arc = vehicle_.step(decision_.command, mission.step_s, mission.vehicle);
   const double length = std::abs(arc.speed) * mission.step_s;
-  const double z = mission.start.z_m;
-  const auto position_at = [&](double s) {
-    const glm::dvec2 p = length > 0.0 ? arc.at(mission.step_s * (s / length)).position : arc.start.position;
-    return glm::dvec3(p, z);
+  // The way that the hull and the fastest solid make together, and where both are along it.
+  const double way = length + scene_.fastest() * mission.step_s, began = time();
+  const auto share = [&](double s) { return way > 0.0 ? s / way : 0.0; };
+  const auto moment_at = [&](double s) {
+    const double t = mission.step_s * share(s);
+    return Moment{{length > 0.0 ? arc.at(t).position : arc.start.position, mission.start.z_m}, began + t};
   };
-  double contact = infinity;
-  {
-    const Stopwatch watch(times_.contact);
-    contact = stage_->scene.first_contact(mission.vehicle.hull(), position_at, length, totals_.least_clearance, clearance_, totals_.least_clearance);
-  }
   ++steps_;
-  if (contact <= length) {
-    vehicle_.pose = arc.at(length > 0.0 ? mission.step_s * (contact / length) : 0.0);
-    totals_.path_length += contact;
-    verdict_ = {Verdict::Kind::collided, fmt::format("the hull touched '{}' with the robot at ({:.2f}, {:.2f})", stage_->scene.world().solids[clearance_.solid].name,
-                                                     vehicle_.pose.position.x, vehicle_.pose.position.y)};
-    return;
+  // While nothing can have come nearer than the least so far, there is nothing to look for.
+  clear_of_ -= way;
+  if (clear_of_ <= std::max(0.0, totals_.least_clearance)) {
+    const Stopwatch watch(times_.contact);
+    const double limit = totals_.least_clearance + look_ahead;
+    const double contact = scene_.first_contact(mission.vehicle.hull(), moment_at, way, limit, clearance_, totals_.least_clearance);
+    clear_of_ = std::min(clearance_.distance, limit);
+    if (contact <= way) {
+      vehicle_.pose = arc.at(mission.step_s * share(contact));
+      totals_.path_length += length * share(contact);
+      verdict_ = {Verdict::Kind::collided, fmt::format("the hull touched '{}' with the robot at ({:.2f}, {:.2f})", scene_.world().solids[clearance_.solid].name,
+                                                       vehicle_.pose.position.x, vehicle_.pose.position.y)};
+      return;
+    }
   }
   vehicle_.pose = arc.at(mission.step_s);
   totals_.path_length += length;

@@ -169,9 +169,9 @@ std::vector<std::string> names_of(const std::vector<Material>& materials) {
   return names;
 }
 
-std::string describe_material_table() {
+std::string describe_material_table(bool markdown) {
   const MaterialKeys defaults;
-  return describe_section(material_section(), &defaults);
+  return markdown ? describe_section_in_markdown(material_section(), &defaults) : describe_section(material_section(), &defaults);
 }
 
 Result<std::vector<Material>> material_presets() {

@@ -16,7 +16,7 @@ Material read_material(const std::string& name, const Node& table, const std::ve
 const Material* find_material(const std::vector<Material>& materials, const std::string& name);
 std::vector<std::string> names_of(const std::vector<Material>& materials);
 
-/// The keys of a table [material.NAME], for `thicket help world`.
-std::string describe_material_table();
+/// The keys of a table [material.NAME], for `thicket help world` and its page.
+std::string describe_material_table(bool markdown = false);
 
 }  // namespace thicket

@@ -97,7 +97,7 @@ SectionOf<HoleKeys> hole_section() {
   return section;
 }
 
-SectionOf<MapKeys> map_section() {
+SectionOf<MapKeys> map_solid_section() {
   auto section = solid_section<MapKeys>("map", "a grid map, its matter extruded upward from its position's z; position and yaw come on top of the map's own origin");
   section.key("file", &MapKeys::file, "the map's YAML file (map_server) or .map file (MovingAI), relative to this one")
       .required()

@@ -90,7 +90,7 @@ SectionOf<SphereKeys> sphere_section();
 SectionOf<CylinderKeys> cylinder_section();
 SectionOf<WallKeys> wall_section();
 SectionOf<PrismKeys> prism_section();
-SectionOf<MapKeys> map_section();
+SectionOf<MapKeys> map_solid_section();
 SectionOf<MeshKeys> mesh_section();
 SectionOf<TreeKeys> tree_section();
 SectionOf<HedgeKeys> hedge_section();

@@ -21,13 +21,14 @@ std::optional<std::vector<std::string>> split(const std::string& text, std::size
 
 /// Flags that stand for mission keys.
 struct MissionFlags {
-  std::string world, start, goal, planner, map_image;
+  std::string world, start, goal, planner, map_image, cell_size;
   std::vector<std::string> sets;
   std::optional<std::string> seed;
 
   void add_to(CLI::App& app) {
     app.add_option("--world", world, "world file or map_server YAML")->type_name("FILE");
     app.add_option("--map-image", map_image, "for a map_server world: an image instead of the one that it names")->type_name("FILE");
+    app.add_option("--cell-size", cell_size, "for a MovingAI .map world: metres a cell")->type_name("M");
     app.add_option("--start", start, "where the vehicle starts: metres and degrees")->type_name("X,Y,YAW_DEG");
     app.add_option("--goal", goal, "where it is to go, metres")->type_name("X,Y");
     app.add_option("--planner", planner, "bug1, bug2 or waypoints")->type_name("NAME");
@@ -43,6 +44,7 @@ struct MissionFlags {
     };
     text("world", world, "--world");
     text("world_image", map_image, "--map-image");
+    if (!cell_size.empty()) list.push_back({"world_cell_size_m", cell_size, "--cell-size"});
     text("planner.name", planner, "--planner");
     if (!start.empty()) {
       const auto pieces = split(start, 2, 3);
@@ -69,6 +71,34 @@ struct MissionFlags {
   }
 };
 
+void add_truth(CLI::App& app, TruthArguments& a) {
+  app.add_option("world", a.world, "world file, map_server YAML or MovingAI .map; shipped ones are found from any directory")->required()->type_name("FILE");
+  app.add_option("--out", a.out, "map to write, FILE.yaml and FILE.pgm; a picture if it ends in .png")->required()->type_name("FILE");
+  app.add_option("--resolution", a.resolution, "metres a cell")->capture_default_str();
+  CLI::Option* grow = app.add_option("--grow", a.grow, "obstacles grown by so many metres: where the axis of a hull of this radius may not be")->check(CLI::NonNegativeNumber)->capture_default_str();
+  app.add_option("--z-low", a.z_low, "from this height, metres")->capture_default_str();
+  app.add_option("--z-high", a.z_high, "to this height, metres")->capture_default_str();
+  app.add_option("--convention", a.convention, "overlap: a cell is occupied if it and matter share any area; centre: if its centre lies in matter")->capture_default_str()->excludes(grow);
+  app.add_option("--bounds", a.bounds, "what to map, metres (default: the world's bounds_m, else all that is there and a metre around)")->type_name("X0,Y0,X1,Y1");
+  app.add_option("--from", a.from, "with --to: tells whether there is a way over free cells, and how long the shortest is")->type_name("X,Y");
+  app.add_option("--to", a.to, "where the way leads")->type_name("X,Y");
+  app.add_option("--time", a.time, "the world as it stands at this time, seconds")->capture_default_str();
+  app.add_flag("--all-matter", a.all_matter, "also matter that does not stop motion");
+  app.add_option("--cell-size", a.cell_size, "of a MovingAI map, metres a cell; 1 if it is not given")->type_name("M");
+  app.add_option("--map-image", a.map_image, "for a map_server world: an image instead of the one that it names")->type_name("FILE");
+}
+
+void add_convert(CLI::App& app, ConvertArguments& a) {
+  app.add_option("in", a.in, "map_server YAML, MovingAI .map, or a world file, which is mapped as by `thicket truth`")->required()->type_name("IN");
+  app.add_option("out", a.out, "what to write: .yaml (and .pgm), .map, or .toml (a world of one solid, with the .yaml and .pgm beside it)")->required()->type_name("OUT");
+  app.add_option("--cell-size", a.cell_size, "of a MovingAI map, metres a cell; 1 if it is not given")->type_name("M");
+  app.add_option("--resolution", a.resolution, "of a mapped world, metres a cell")->capture_default_str();
+  app.add_option("--z-low", a.z_low, "a world is mapped from this height, metres")->capture_default_str();
+  app.add_option("--z-high", a.z_high, "to this height, metres")->capture_default_str();
+  app.add_option("--height", a.height, "height of the solid in a .toml, metres")->capture_default_str();
+  app.add_option("--map-image", a.map_image, "for a map_server map: an image instead of the one that it names")->type_name("FILE");
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app{"Thicket simulates robots that find their way by radar."};
   app.name("thicket");
@@ -92,6 +122,12 @@ int dispatch(int argc, char** argv) {
   CLI::App& check = *app.add_subcommand("check", "tell what is wrong with a world or mission file, and what to beware of");
   check.add_option("file", file, "world or mission file")->required();
   check_flags.add_to(check);
+  TruthArguments truth_arguments;
+  CLI::App& truth = *app.add_subcommand("truth", "what is really there: a world as a map at any resolution and height, and whether there is a way (exit code 3: there is none)");
+  add_truth(truth, truth_arguments);
+  ConvertArguments convert_arguments;
+  CLI::App& convert = *app.add_subcommand("convert", "turn maps of one format into another: map_server, MovingAI, world");
+  add_convert(convert, convert_arguments);
   CLI::App& worlds = *app.add_subcommand("worlds", "list the worlds and missions that are shipped");
   MaterialsArguments materials_arguments;
   CLI::App& materials = *app.add_subcommand("materials", "print the shipped materials, or those of a world, as a radar of some frequency meets them");
@@ -120,6 +156,8 @@ int dispatch(int argc, char** argv) {
     const auto overrides = check_flags.overrides();
     return overrides ? check_file(file, *overrides, check_flags.map_image) : bad_input;
   }
+  if (truth.parsed()) return write_truth(truth_arguments);
+  if (convert.parsed()) return convert_map(convert_arguments);
   if (worlds.parsed()) return list_worlds();
   if (materials.parsed()) return list_materials(materials_arguments);
   return help_topic(topic);

@@ -23,11 +23,29 @@ struct RunArguments {
   bool json = false;
 };
 
+struct TruthArguments {
+  std::string world, out, map_image;
+  double resolution = 0.05, grow = 0.0, z_low = 0.0, z_high = 0.5, time = 0.0;  ///< m, s
+  std::optional<double> cell_size;                                              ///< m, of a MovingAI map
+  std::string convention = "overlap";                                           ///< or "centre"
+  std::string bounds, from, to;                                                 ///< X0,Y0,X1,Y1 and X,Y; empty: not given
+  bool all_matter = false;
+};
+
+struct ConvertArguments {
+  std::string in, out, map_image;
+  std::optional<double> cell_size;  ///< m, of a MovingAI map
+  double resolution = 0.05, z_low = 0.0, z_high = 0.5, height = 2.5;  ///< m
+};
+
 int run_mission(const RunArguments& arguments);
 /// `map_image` is what --map-image gave, which is also among the overrides of a mission.
 int check_file(const std::string& file, const std::vector<Override>& overrides, const std::string& map_image);
 /// A TOML file that names a world, a planner or a sensor is a mission.
 bool is_mission(const std::filesystem::path& file);
+/// A world as a map or a picture, and whether there is a way: 0 if there is, 3 if not.
+int write_truth(const TruthArguments& arguments);
+int convert_map(const ConvertArguments& arguments);
 int list_worlds();
 
 struct MaterialsArguments {

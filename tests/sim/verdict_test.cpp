@@ -35,7 +35,7 @@ World walled_arena() {
 
 bool joined(const World& world, const VehicleSpec& vehicle, const glm::dvec2& from, const glm::dvec2& to, double grow) {
   const glm::dvec2 corner(arena / 2);
-  return connected(grown_obstacles(world, -corner, corner, cell, grow, 0.0, vehicle.height_m), from, to);
+  return connected(*grown_obstacles(world, -corner, corner, cell, grow, 0.0, vehicle.height_m), from, to);
 }
 
 /// Boxes, cylinders, and now and then an U of walls around the goal. Nothing if the problem is ambiguous: its verdict changes within +-(0.1 clearance + a cell).

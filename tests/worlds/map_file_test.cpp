@@ -163,6 +163,10 @@ TEST_CASE("every value is checked, where it stands") {
   CHECK(wrong("resolution", "") == "m.yaml:2:1: resolution is empty" + metres);
   CHECK(wrong("resolution", "\"\\e[2J\\n\"") == "m.yaml:2:13: resolution is '.[2J.'" + metres);
 
+  CHECK(wrong("resolution", "9e-7") == "m.yaml:2:13: resolution is '9e-7', expected metres a cell, from 1e-06 to 1000000");
+  CHECK(wrong("resolution", "1000001") == "m.yaml:2:13: resolution is '1000001', expected metres a cell, from 1e-06 to 1000000");
+  CHECK(wrong("origin", "[1.1e9, -2e9, 0]") == "m.yaml:3:10: origin's x is '1.1e9', expected metres, from -1000000000 to 1000000000\n"
+                                               "m.yaml:3:17: origin's y is '-2e9', expected metres, from -1000000000 to 1000000000");
   CHECK(wrong("origin", "[1, 2]") == "m.yaml:3:9: origin has 2 values, expected 3: [x, y, yaw] in metres and radians");
   CHECK(wrong("origin", "[]") == "m.yaml:3:9: origin has 0 values, expected 3: [x, y, yaw] in metres and radians");
   CHECK(wrong("origin", "[1, 2, 3, 4]") == "m.yaml:3:9: origin has 4 values, expected 3: [x, y, yaw] in metres and radians");
@@ -315,6 +319,8 @@ TEST_CASE("a map that could not be read again is not written") {
   CHECK(refused({1, 1, 0.0, {}, 0.0, {F}}) == ": the resolution is 0, expected a finite number greater than 0");
   CHECK(refused({1, 1, nan, {}, 0.0, {F}}) == ": the resolution is nan, expected a finite number greater than 0");
   CHECK(refused({1, 1, 1.0, {0.0, infinite}, 0.0, {F}}) == ": the origin is [0, inf, 0], expected finite numbers");
+  CHECK(refused({1, 1, 1e-7, {}, 0.0, {F}}) == ": the resolution is 1e-07 m, expected 1e-06 to 1000000");
+  CHECK(refused({1, 1, 1.0, {0.0, 1e10}, 0.0, {F}}) == ": the origin is [0, 10000000000, 0], expected metres from -1000000000 to 1000000000");
   CHECK(refused({1, 1, 1.0, {}, nan, {F}}) == ": the origin is [0, 0, nan], expected finite numbers");
   CHECK(fs::is_empty(folder.path()));
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include <toml++/toml.h>
 
@@ -64,7 +65,33 @@ std::string Node::kind_in_words() const {
   return words[content.index()];
 }
 
+namespace {
+
+constexpr std::uintmax_t largest_document = std::uintmax_t{1} << 26;  // bytes; what describes a world or a mission is far smaller, and large data have files of their own
+constexpr int deepest_key = 1000;
+
+/// Where a dotted key is deeper than any that is meant: the parser goes down it by recursion, and would crash. (It limits nested arrays and tables itself.)
+std::optional<Place> too_deep(std::string_view text, const std::string& name) {
+  int line = 1, dots = 0;
+  std::size_t line_start = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\n') {
+      ++line;
+      line_start = i + 1;
+    }
+    // Only what dots can join: in numbers, texts and comments something else comes between so many of them.
+    const bool joins = c == '.' || c == ' ' || c == '\t' || c == '_' || c == '-' || c == '"' || c == '\'' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    if (!joins) dots = 0;
+    else if (c == '.' && ++dots > deepest_key) return Place{name, line, static_cast<int>(i - line_start) + 1};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 Result<Node> parse_document(std::string_view text, const std::string& name) {
+  if (const auto place = too_deep(text, name)) return Error{fmt::format("{}: a key of more than {} parts joined by dots, expected fewer", to_string(*place), deepest_key)};
   try {
     return convert(toml::parse(text, std::string_view(name)), name);
   } catch (const toml::parse_error& fault) {
@@ -73,6 +100,9 @@ Result<Node> parse_document(std::string_view text, const std::string& name) {
 }
 
 Result<Node> read_document(const std::filesystem::path& file) {
+  std::error_code unknown;
+  if (const auto size = std::filesystem::file_size(file, unknown); !unknown && size > largest_document)
+    return Error{fmt::format("{}: is larger than {} bytes, expected a file that describes a world or a mission", file.string(), largest_document)};
   auto text = read_text_file(file);
   if (!text) return text.error();
   return parse_document(*text, file.string());

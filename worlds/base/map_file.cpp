@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -148,6 +149,7 @@ class HeaderReader {
     if (entry == nullptr) return;
     const auto number = finite_number(entry->value);
     if (!number || *number <= 0.0) return fault("resolution", *entry, "metres a cell, a finite number greater than 0");
+    if (*number < least_cell_m || *number > largest_cell_m) return fault("resolution", *entry, fmt::format("metres a cell, from {} to {}", least_cell_m, largest_cell_m));
     header_.resolution = *number;
   }
 
@@ -162,6 +164,8 @@ class HeaderReader {
       const YAML::Node part = entry->value[i];
       const auto number = finite_number(part);
       if (!number) fault(fmt::format("origin's {}", i == 0 ? "x" : i == 1 ? "y" : "yaw"), Entry{part, part.Mark()}, "a finite number");
+      if (number && i < 2 && std::abs(*number) > farthest_origin_m)
+        fault(fmt::format("origin's {}", i == 0 ? "x" : "y"), Entry{part, part.Mark()}, fmt::format("metres, from {} to {}", -farthest_origin_m, farthest_origin_m));
       header_.origin[i] = number.value_or(0.0);
     }
   }
@@ -262,9 +266,13 @@ std::optional<std::string> unwritable(const GridMap& map) {
   if (!std::isfinite(map.resolution) || map.resolution <= 0.0) {
     return fmt::format("the resolution is {}, expected a finite number greater than 0", map.resolution);
   }
+  if (map.resolution < least_cell_m || map.resolution > largest_cell_m)
+    return fmt::format("the resolution is {} m, expected {} to {}", map.resolution, least_cell_m, largest_cell_m);
   if (!std::isfinite(map.origin.x) || !std::isfinite(map.origin.y) || !std::isfinite(map.origin_yaw)) {
     return fmt::format("the origin is [{}, {}, {}], expected finite numbers", map.origin.x, map.origin.y, map.origin_yaw);
   }
+  if (std::max(std::abs(map.origin.x), std::abs(map.origin.y)) > farthest_origin_m)
+    return fmt::format("the origin is [{}, {}, {}], expected metres from {} to {}", map.origin.x, map.origin.y, map.origin_yaw, -farthest_origin_m, farthest_origin_m);
   return std::nullopt;
 }
 

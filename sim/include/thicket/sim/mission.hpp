@@ -43,6 +43,7 @@ struct Mission {
   std::string name = "mission";
   std::string description;
   std::string world;             ///< as written
+  std::optional<double> world_cell_size_m;  ///< for a MovingAI world
   std::string world_image;       ///< for a map_server world: an image instead of the one that it names
   double world_height_m = 2.5;   ///< for a map_server world
   bool world_unknown_is_matter = true;

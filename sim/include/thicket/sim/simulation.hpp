@@ -41,7 +41,7 @@ struct RunTotals {
 /// What does not change during a run, shared by all copies of its simulation.
 struct Stage {
   Mission mission;
-  Scene scene;
+  Scene scene;  ///< as it is at time 0; each simulation has its own, whose solids move
   std::vector<std::shared_ptr<const Sensor>> sensors;
 };
 
@@ -65,12 +65,13 @@ class Simulation {
 
   const Stage& stage() const { return *stage_; }
   const Mission& mission() const { return stage_->mission; }
+  const Scene& scene() const { return scene_; }  ///< with moving solids where they are now
   /// Time is steps times the step: it does not drift.
   double time() const { return static_cast<double>(steps_) * stage_->mission.step_s; }
   std::uint64_t steps() const { return steps_; }
   const DifferentialDrive& vehicle() const { return vehicle_; }
   Pose vehicle_pose() const;  ///< in space, on the start's height
-  const Clearance& clearance() const { return clearance_; }  ///< as found in the last step; looked for only as far as the least so far
+  const Clearance& clearance() const { return clearance_; }  ///< as last looked for: not while nothing can be nearer than the least so far, and not much farther than that
   const RunTotals& totals() const { return totals_; }
   const PhaseTimes& phase_times() const { return times_; }
   const std::optional<Verdict>& verdict() const { return verdict_; }
@@ -99,7 +100,9 @@ class Simulation {
   std::vector<Scan> scans_;
   std::vector<std::uint64_t> scan_counts_;
   Decision decision_;
+  Scene scene_;
   Clearance clearance_;
+  double clear_of_ = 0.0;  ///< what the clearance now is at least, m
   RunTotals totals_;
   PhaseTimes times_;
   std::optional<Verdict> verdict_;

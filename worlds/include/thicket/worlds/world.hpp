@@ -136,20 +136,21 @@ std::optional<Bounds> extent(const World& world);
 /// matter between them. Tells whether a sensor's plane sees as much of a solid as the hull would meet.
 double half_width_between(const Solid& solid, double z_low, double z_high);
 
-/// Options for maps that are given as a world of their own.
+/// Options for grid maps.
 struct MapOptions {
   std::filesystem::path image;    ///< read instead of the image that the YAML names, if not empty
   bool unknown_is_matter = true;
   double height = 2.5;
+  std::optional<double> cell_size = std::nullopt;  ///< m, of a MovingAI `.map`, which has none of its own; 1 if it is not given
 };
 
-/// Reads a world file (TOML) or a map_server YAML; which of the two is told by the name's ending. Errors as in `Error`, all of a file's faults at once.
+/// Reads a world file (TOML), or a map_server YAML, a MovingAI `.map` or an OBJ file as a world of its own; the name's ending tells. Errors as in `Error`, all of a file's faults at once.
 Result<World> read_world(const std::filesystem::path& file, const MapOptions& map = {});
 
 /// Merges the matter of a map into rectangles: greedy, rows first, each cell in exactly one.
 std::vector<CellBlock> merge_cells(const MapSolid& map);
 
-/// The sections of a world file, for `thicket help world`: title, and its keys with their defaults.
-std::string describe_world_file();
+/// The sections of a world file, for `thicket help world` and docs/worlds.md: title, and its keys with their defaults.
+std::string describe_world_file(bool markdown = false);
 
 }  // namespace thicket

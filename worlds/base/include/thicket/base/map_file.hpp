@@ -11,6 +11,9 @@
 
 namespace thicket {
 
+/// What a resolution and an origin may be, read or written: whatever lies outside is a slip, and would cost the digits of everything computed with it.
+inline constexpr double least_cell_m = 1e-6, largest_cell_m = 1e6, farthest_origin_m = 1e9;
+
 /// What a map says of one cell.
 enum class CellState : std::uint8_t { unknown, free, occupied };
 

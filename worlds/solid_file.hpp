@@ -1,0 +1,35 @@
+// One entry [[solid]] of a world file. Private to the room.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "thicket/base/document.hpp"
+#include "thicket/worlds/world.hpp"
+
+namespace thicket {
+
+/// The materials that solids of a file may name.
+class MaterialFinder {
+ public:
+  virtual ~MaterialFinder() = default;
+  /// The index of a material of that name, which the world then has; a fault, and 0, if there is none.
+  virtual std::uint32_t index_of(const std::string& name, const Place& place) = 0;
+  virtual bool knows(const std::string& name) = 0;
+};
+
+/// Reads an entry and appends its solids: one, or those of all its parts, repeats and instances. Files are relative to `folder`.
+void read_solid(const Node& entry, const std::filesystem::path& folder, MaterialFinder& materials, World& world, Faults& faults);
+
+/// A grid map as a solid: its frame is the map's own, placed by the solid's pose.
+void place_map(Solid& solid, GridMap grid, const MapOptions& options);
+/// A map by its ending: MovingAI for `.map`, else map_server.
+Result<GridMap> read_any_map(const std::filesystem::path& file, const MapOptions& options);
+
+/// The pieces of an OBJ file as solids with a pose, scale and sheet thickness, and their notices; `material_of` gives a material for an MTL name (empty: none).
+Result<std::vector<Solid>> solids_of_obj(const std::filesystem::path& file, bool y_up, const Solid& pose, const MeshSolid& like, const std::function<std::uint32_t(const std::string&)>& material_of,
+                                         World& world);
+
+}  // namespace thicket
