@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "thicket/worlds/truth.hpp"
@@ -102,19 +103,40 @@ std::vector<std::string> mission_warnings(const Simulation& simulation) {
 
 std::string describe_scene(const Scene& scene) {
   const World& world = scene.world();
+  const SceneFigures figures = scene.figures();
   std::string text = fmt::format("world      {}\n", world.name);
   if (!world.source.empty()) text += fmt::format("source     {}\n", world.source);
-  text += fmt::format("solids     {} ({} convex parts)\n", world.solids.size(), scene.figures().parts);
+  static constexpr std::array shapes = {"boxes", "spheres", "cylinders", "walls", "maps", "prisms", "meshes"};
+  std::array<std::size_t, std::variant_size_v<Shape>> counts{};
+  for (const Solid& solid : world.solids) ++counts[solid.shape.index()];
+  std::vector<std::string> kinds;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    if (counts[i] > 0) kinds.push_back(fmt::format("{} {}", counts[i], shapes[i]));
+  text += fmt::format("solids     {}{}{}\n", world.solids.size(), kinds.empty() ? "" : ": ", fmt::join(kinds, ", "));
+  text += fmt::format("traced     {} convex parts, {} triangles, {} instances, {} moving\n", figures.parts, figures.triangles, figures.instances, figures.moving);
   for (std::size_t m = 0; m < world.materials.size(); ++m) {
     const Material& material = world.materials[m];
     const auto users = std::count_if(world.solids.begin(), world.solids.end(), [m](const Solid& s) { return s.material == m; });
     text += fmt::format("material   {:<12} {:>4} solids, reflectivity {:.4g}, {:.4g} dB/m{}, {} light, {} motion\n", material.name, users, material.reflectivity,
                         material.attenuation_db_per_m, material.depends_on_frequency() ? " at 1 GHz" : "", material.stops_light ? "stops" : "passes", material.stops_motion ? "stops" : "passes");
   }
+  if (world.bounds) text += fmt::format("bounds     x {:.2f} to {:.2f}, y {:.2f} to {:.2f} m\n", world.bounds->x, world.bounds->z, world.bounds->y, world.bounds->w);
   if (const auto box = extent(world))
     text += fmt::format("extent     x {:.2f} to {:.2f}, y {:.2f} to {:.2f}, z {:.2f} to {:.2f} m\n", box->low.x, box->high.x, box->low.y, box->high.y, box->low.z, box->high.z);
-  text += fmt::format("memory     {:.1f} MB in the ray tracer\n", static_cast<double>(scene.figures().memory_bytes) / 1e6);
+  text += fmt::format("memory     {:.1f} MB in the ray tracer\nbuilt in   {:.1f} ms\n", static_cast<double>(figures.memory_bytes) / 1e6, 1e3 * figures.build_s);
+  for (const std::string& notice : world.notices) text += fmt::format("notice: {}\n", notice);
   return text;
+}
+
+std::vector<std::string> stealth_warnings(const World& world, const Sensor& sensor) {
+  std::map<std::string, std::vector<std::string>> undetected;
+  for (const Solid& solid : world.solids)
+    if (const Material& material = world.materials[solid.material]; material.stops_motion && !sensor.detects(material)) undetected[material.name].push_back(solid.name);
+  std::vector<std::string> warnings;
+  for (const auto& [material, solids] : undetected)
+    warnings.push_back(fmt::format("{} of material '{}' stop motion but lie below the detection floor of sensor '{}': a robot that relies on it would run into them", name_some(solids), material,
+                                   sensor.spec().name));
+  return warnings;
 }
 
 }  // namespace thicket

@@ -24,17 +24,30 @@ std::string text_of(const Node& document, const char* key) {
   return text ? *text : "";
 }
 
-int check_world(const std::filesystem::path& file, const std::vector<Override>& overrides, const std::string& map_image) {
-  for (const Override& change : overrides)
-    if (change.key != "world_image") return complain({fmt::format("{}: '{}' is a world, which has no key '{}' of a mission", change.origin, file.string(), change.key)});
+int print_end(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
+  fmt::print("ok{}\n", warnings.empty() ? "" : fmt::format(", with {} warning{}", warnings.size(), warnings.size() == 1 ? "" : "s"));
+  return done;
+}
+
+int check_world(const std::filesystem::path& file, const CheckArguments& arguments) {
+  for (const Override& change : arguments.overrides)
+    if (change.key != "world_image" && change.key != "world_cell_size_m")
+      return complain({fmt::format("{}: '{}' is a world, which has no key '{}' of a mission", change.origin, file.string(), change.key)});
   MapOptions options;
-  options.image = map_image;
+  options.image = arguments.map_image;
+  options.cell_size = arguments.cell_size;
   auto world = read_world(file, options);
   if (!world) return complain(world.error());
   const auto scene = Scene::build(std::move(*world));
   if (!scene) return complain(scene.error());
-  fmt::print("{}ok\n", describe_scene(*scene));
-  return done;
+  const auto preset = parse_document(fmt::format("preset = {}", toml_string(arguments.sensor)), "--sensor");
+  if (!preset) return complain(preset.error());
+  Faults faults;
+  const SensorSpec spec = read_sensor(*preset, faults);
+  if (!faults.none()) return complain(faults.error());
+  fmt::print("{}", describe_scene(*scene));
+  return print_end(stealth_warnings(scene->world(), *make_sensor(spec, 0)));
 }
 
 int check_mission(const std::filesystem::path& file, const std::vector<Override>& overrides) {
@@ -43,10 +56,7 @@ int check_mission(const std::filesystem::path& file, const std::vector<Override>
   const auto simulation = Simulation::create(*mission);
   if (!simulation) return complain(simulation.error());
   fmt::print("mission    {}\n{}", mission->name, describe_scene(simulation->stage().scene));
-  const auto warnings = mission_warnings(*simulation);
-  for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
-  fmt::print("ok{}\n", warnings.empty() ? "" : fmt::format(", with {} warning{}", warnings.size(), warnings.size() == 1 ? "" : "s"));
-  return done;
+  return print_end(mission_warnings(*simulation));
 }
 
 }  // namespace
@@ -57,10 +67,10 @@ bool is_mission(const std::filesystem::path& file) {
   return document && (document->find("world") || document->find("planner") || document->find("sensor"));
 }
 
-int check_file(const std::string& name, const std::vector<Override>& overrides, const std::string& map_image) {
-  const auto file = find_input(name);
-  if (file.empty()) return complain({fmt::format("there is no file '{}'; shipped ones are listed by `thicket worlds`", name)});
-  return is_mission(file) ? check_mission(file, overrides) : check_world(file, overrides, map_image);
+int check_file(const CheckArguments& arguments) {
+  const auto file = find_input(arguments.file);
+  if (file.empty()) return complain({fmt::format("there is no file '{}'; shipped ones are listed by `thicket worlds`", arguments.file)});
+  return is_mission(file) ? check_mission(file, arguments.overrides) : check_world(file, arguments);
 }
 
 int list_worlds() {

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "program.hpp"
+#include "thicket/base/schema.hpp"
 #include "thicket/sim/outputs.hpp"
 
 namespace {
@@ -21,7 +22,8 @@ std::optional<std::vector<std::string>> split(const std::string& text, std::size
 
 /// Flags that stand for mission keys.
 struct MissionFlags {
-  std::string world, start, goal, planner, map_image, cell_size;
+  std::string world, start, goal, planner, map_image;
+  std::optional<double> cell_size;
   std::vector<std::string> sets;
   std::optional<std::string> seed;
 
@@ -44,7 +46,7 @@ struct MissionFlags {
     };
     text("world", world, "--world");
     text("world_image", map_image, "--map-image");
-    if (!cell_size.empty()) list.push_back({"world_cell_size_m", cell_size, "--cell-size"});
+    if (cell_size) list.push_back({"world_cell_size_m", thicket::to_toml(*cell_size), "--cell-size"});
     text("planner.name", planner, "--planner");
     if (!start.empty()) {
       const auto pieces = split(start, 2, 3);
@@ -89,7 +91,7 @@ void add_truth(CLI::App& app, TruthArguments& a) {
 }
 
 void add_convert(CLI::App& app, ConvertArguments& a) {
-  app.add_option("in", a.in, "map_server YAML, MovingAI .map, or a world file, which is mapped as by `thicket truth`")->required()->type_name("IN");
+  app.add_option("in", a.in, "map_server YAML, MovingAI .map, or a world file, which is mapped as by `thicket truth`; an OBJ file becomes a world (.toml) of its mesh")->required()->type_name("IN");
   app.add_option("out", a.out, "what to write: .yaml (and .pgm), .map, or .toml (a world of one solid, with the .yaml and .pgm beside it)")->required()->type_name("OUT");
   app.add_option("--cell-size", a.cell_size, "of a MovingAI map, metres a cell; 1 if it is not given")->type_name("M");
   app.add_option("--resolution", a.resolution, "of a mapped world, metres a cell")->capture_default_str();
@@ -118,10 +120,12 @@ int dispatch(int argc, char** argv) {
   run.add_flag("--quiet", arguments.quiet, "no progress, no warnings, no summary");
   run.add_flag("--json", arguments.json, "print result.json instead of the summary");
 
-  std::string file, topic;
+  std::string topic;
+  CheckArguments check_arguments;
   CLI::App& check = *app.add_subcommand("check", "tell what is wrong with a world or mission file, and what to beware of");
-  check.add_option("file", file, "world or mission file")->required();
+  check.add_option("file", check_arguments.file, "world (TOML, map_server YAML, MovingAI .map, OBJ) or mission file")->required();
   check_flags.add_to(check);
+  check.add_option("--sensor", check_arguments.sensor, "of a world: the sensor preset that its matter should be seen by")->capture_default_str();
   TruthArguments truth_arguments;
   CLI::App& truth = *app.add_subcommand("truth", "what is really there: a world as a map at any resolution and height, and whether there is a way (exit code 3: there is none)");
   add_truth(truth, truth_arguments);
@@ -153,8 +157,12 @@ int dispatch(int argc, char** argv) {
     return run_mission(arguments);
   }
   if (check.parsed()) {
-    const auto overrides = check_flags.overrides();
-    return overrides ? check_file(file, *overrides, check_flags.map_image) : bad_input;
+    auto overrides = check_flags.overrides();
+    if (!overrides) return bad_input;
+    check_arguments.overrides = std::move(*overrides);
+    check_arguments.map_image = check_flags.map_image;
+    check_arguments.cell_size = check_flags.cell_size;
+    return check_file(check_arguments);
   }
   if (truth.parsed()) return write_truth(truth_arguments);
   if (convert.parsed()) return convert_map(convert_arguments);

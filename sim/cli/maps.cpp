@@ -12,6 +12,7 @@
 #include "thicket/base/files.hpp"
 #include "thicket/base/image.hpp"
 #include "thicket/base/movingai.hpp"
+#include "thicket/worlds/mesh_file.hpp"
 #include "thicket/worlds/truth.hpp"
 
 namespace thicket::cli {
@@ -116,6 +117,29 @@ std::string world_of_map(const fs::path& yaml, const fs::path& in, double height
                      toml_string(yaml.stem().string()), toml_string(in.filename().string()), toml_string(yaml.filename().string()), height);
 }
 
+/// A world of an OBJ file, which stays where it is, with every MTL material to be given one of Thicket's.
+Result<std::string> world_of_obj(const fs::path& obj, const fs::path& out) {
+  const auto file = read_obj(obj);
+  if (!file) return file.error();
+  auto presets = material_presets();
+  if (!presets) return presets.error();
+  std::error_code failed;
+  fs::path relative = fs::relative(obj, fs::absolute(out).parent_path(), failed);
+  if (failed || relative.empty()) relative = fs::absolute(obj);
+  std::string text = fmt::format("# Written by `thicket convert`.\nname = {}\nsource = {}\n\n[material.wall]\nreflectivity = 0.5\n\n[[solid]]\ntype = \"mesh\"\nname = {}\nmaterial = \"wall\"         # where nothing else is said\n"
+                                 "file = {}\nup = \"z\"                  # \"y\" if the model lies on its side\nscale = 1.0               # metres in a unit of the file\nsheet_thickness_m = 0.001\n",
+                                 toml_string(obj.stem().string()), toml_string("OBJ file " + obj.filename().string()), toml_string(obj.stem().string()), toml_string(relative.generic_string()));
+  const bool named = std::any_of(file->materials.begin(), file->materials.end(), [](const ObjMaterial& m) { return !m.name.empty(); });
+  if (named) text += "\n[solid.materials]         # MTL name = material; `thicket materials` lists them\n";
+  for (const ObjMaterial& mtl : file->materials) {
+    if (mtl.name.empty()) continue;
+    const bool shipped = std::any_of(presets->begin(), presets->end(), [&](const Material& m) { return m.name == mtl.name; });
+    const std::string hint = mtl.dissolve < 1.0 ? fmt::format("  # its dissolve is {}: light may pass (\"glass\"?)", mtl.dissolve) : "";
+    text += fmt::format("{} = {}{}\n", toml_string(mtl.name), toml_string(shipped ? mtl.name : "wall"), hint);
+  }
+  return text;
+}
+
 void print_way(const TruthGrid& grid, const std::optional<GridPath>& path, const glm::dvec2& from, const glm::dvec2& to) {
   if (path) return fmt::print("connected  yes, the shortest path is {:.3f} m\n", path->length_m);
   const bool at_start = grid.blocked[grid.index_at(from)] != 0, at_goal = grid.blocked[grid.index_at(to)] != 0;
@@ -188,6 +212,14 @@ int convert_map(const ConvertArguments& a) {
   if (!(a.height > 0.0) || !std::isfinite(a.height)) return complain({fmt::format("--height is {}, expected metres, a finite number greater than 0", a.height)});
   const auto in = find_input(a.in);
   if (in.empty()) return complain({fmt::format("there is no file '{}'; shipped ones are listed by `thicket worlds`", a.in)});
+  if (in.extension() == ".obj" && ending == ".toml") {
+    if (const auto fault = overwrites({out}, in, a.map_image)) return complain(*fault);
+    const auto text = world_of_obj(in, out);
+    if (!text) return complain(text.error());
+    if (const auto written = write_file(out, *text); !written) return complain(written.error());
+    fmt::print("written    {}\n", out.string());
+    return done;
+  }
   const std::vector<fs::path> outputs = ending == ".map" ? std::vector{out} : ending == ".yaml" ? std::vector{yaml, pgm} : std::vector{out, yaml, pgm};
   if (const auto fault = overwrites(outputs, in, a.map_image)) return complain(*fault);
   const auto map = read_cells(in, a);

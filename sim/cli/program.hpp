@@ -39,8 +39,14 @@ struct ConvertArguments {
 };
 
 int run_mission(const RunArguments& arguments);
-/// `map_image` is what --map-image gave, which is also among the overrides of a mission.
-int check_file(const std::string& file, const std::vector<Override>& overrides, const std::string& map_image);
+struct CheckArguments {
+  std::string file;
+  std::vector<Override> overrides;  ///< of a mission; what --map-image and --cell-size gave is among them
+  std::string map_image;
+  std::optional<double> cell_size;
+  std::string sensor = "usarsim2012";  ///< preset that a world's matter is held against
+};
+int check_file(const CheckArguments& arguments);
 /// A TOML file that names a world, a planner or a sensor is a mission.
 bool is_mission(const std::filesystem::path& file);
 /// A world as a map or a picture, and whether there is a way: 0 if there is, 3 if not.
