@@ -123,7 +123,6 @@ bool Simulation::step() {
 }
 
 void Simulation::sense() {
-  scene_.set_time(time());
   for (std::size_t i = 0; i < stage_->sensors.size(); ++i) {
     const Sensor& sensor = *stage_->sensors[i];
     const double due = static_cast<double>(scan_counts_[i]) / sensor.spec().rate_hz;
@@ -172,6 +171,7 @@ void Simulation::move() {
     return Moment{{length > 0.0 ? arc.at(t).position : arc.start.position, mission.start.z_m}, began + t};
   };
   ++steps_;
+  scene_.set_time(time());
   // While nothing can have come nearer than the least so far, there is nothing to look for.
   clear_of_ -= way;
   if (clear_of_ <= std::max(0.0, totals_.least_clearance)) {
