@@ -40,12 +40,17 @@ std::optional<double> observed_share(const Simulation& simulation, const glm::dv
   const OccupancyMap& map = simulation.map();
   const double height = simulation.mission().start.z_m + scanner(simulation.mission().sensors.front()).position_m.z;
   const CellIndex first = map.cell_at({region.x, region.y}), last = map.cell_at({region.z, region.w});
+  // The truth at the cells' own centres, at the sensor's height.
+  const glm::dvec2 low = glm::dvec2(static_cast<double>(first.column), static_cast<double>(first.row)) * map.resolution();
+  const glm::dvec2 high = glm::dvec2(static_cast<double>(last.column + 1), static_cast<double>(last.row + 1)) * map.resolution();
+  const auto truth = occupancy(world_at(world, simulation.time()), low, high, map.resolution(), height, height, Convention::cell_centre);
+  if (!truth) return std::nullopt;
   std::size_t free = 0, observed = 0;
   for (std::int64_t row = first.row; row <= last.row; ++row) {
     for (std::int64_t column = first.column; column <= last.column; ++column) {
       const glm::dvec2 centre = glm::dvec2(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5) * map.resolution();
       if (centre.x < region.x || centre.y < region.y || centre.x > region.z || centre.y > region.w) continue;
-      if (in_matter(world, {centre, height}, true)) continue;
+      if (truth->blocked[truth->index_at(centre)]) continue;
       ++free;
       observed += map.view({column, row}).known;
     }

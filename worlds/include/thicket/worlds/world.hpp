@@ -128,7 +128,8 @@ struct World {
 /// The world as it stands at a time; nothing in it moves.
 World world_at(const World& world, double time);
 
-/// An axis-aligned box that holds a solid (as it stands at time 0), or all of them (nothing for an empty world). Exact but for tilted meshes.
+/// An axis-aligned box that holds a solid (as it stands at time 0), or all of them (nothing for an empty world). Exact, but
+/// somewhat large for tilted meshes and past the square ends of a wall.
 Bounds extent(const Solid& solid);
 std::optional<Bounds> extent(const World& world);
 

@@ -23,9 +23,9 @@ std::filesystem::path shipped_root();
 
 /// `name` as it is if it exists; else, if it is relative, below `shipped_root()`, below its `worlds/data`, and then the same three with
 /// `.toml` added. A folder is not an input. Empty if there is no such file.
+std::filesystem::path find_input(const std::filesystem::path& name);
 /// The same without looking at `name` as it is: only what is shipped.
 std::filesystem::path find_shipped(const std::filesystem::path& name);
-std::filesystem::path find_input(const std::filesystem::path& name);
 
 /// The names of the TOML files in a shipped folder ("radar/presets"), without their ending, sorted.
 std::vector<std::string> shipped_names(const std::filesystem::path& folder);
