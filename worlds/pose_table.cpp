@@ -45,6 +45,7 @@ class TableReader {
 
   Result<std::vector<TablePose>> read(std::string_view text) {
     int number = 0;
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // spreadsheets write it
     while (!text.empty() && faults_ < most_faults) {
       const std::size_t end = std::min(text.find('\n'), text.size());
       const std::string_view line = text.substr(0, end);
@@ -62,6 +63,7 @@ class TableReader {
     }
     if (faults_ == 0 && order_.empty()) fault(1, 1, "the table is empty, expected a line of column names, for example x_m, y_m, yaw_deg");
     if (faults_ == 0 && poses_.empty()) fault(number, 1, "the table has no poses, expected a line for each");
+    if (faults_ >= most_faults && !text.empty()) messages_.add({file_.string(), number, 1}, fmt::format("{} faults so far, the rest of the table has not been read", faults_));
     if (faults_ > 0) return messages_.error();
     return std::move(poses_);
   }
@@ -86,12 +88,12 @@ class TableReader {
       order.push_back(index);
     }
     for (const std::size_t needed : {std::size_t{0}, std::size_t{1}})
-      if (faults_ == 0 && std::find(order.begin(), order.end(), needed) == order.end()) fault(line, 1, fmt::format("column '{}' is missing", columns[needed]));
+      if (faults_ == 0 && std::find(order.begin(), order.end(), needed) == order.end()) fault(line, 1, fmt::format("column '{}' is missing, expected x_m and y_m, and others as they are wanted", columns[needed]));
     if (faults_ == 0) order_ = std::move(order);
   }
 
   void read_line(const std::vector<Field>& fields, int line) {
-    if (fields.size() != order_.size()) return fault(line, 1, fmt::format("{} fields, expected {}", fields.size(), order_.size()));
+    if (fields.size() != order_.size()) return fault(line, 1, fmt::format("{} field{}, expected {}, one for each column that the first line names", fields.size(), fields.size() == 1 ? "" : "s", order_.size()));
     TablePose pose;
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const Field& field = fields[i];

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <map>
 
 #include "polygon.hpp"
 #include "pose_table.hpp"
@@ -17,6 +19,20 @@ namespace thicket {
 namespace {
 
 constexpr std::size_t most_points = 10000;  // of a prism: what is checked and triangulated takes time by its square
+
+constexpr double most_copied_bytes = 2147483648.0;  // of maps, walls and prisms by one repeat or table: meshes are shared, these are not
+
+/// What a copy of a solid takes, roughly.
+double bytes_of(const Solid& solid) {
+  double bytes = sizeof(Solid);
+  if (const auto* map = std::get_if<MapSolid>(&solid.shape)) bytes += static_cast<double>(map->grid.cells.size() * sizeof(CellState) + map->blocks.size() * sizeof(CellBlock));
+  if (const auto* wall = std::get_if<Wall>(&solid.shape)) bytes += static_cast<double>(wall->points.size() * sizeof(glm::dvec2));
+  if (const auto* prism = std::get_if<Prism>(&solid.shape)) {
+    bytes += static_cast<double>(prism->outline.size() * sizeof(glm::dvec2));
+    for (const auto& hole : prism->holes) bytes += static_cast<double>(hole.size() * sizeof(glm::dvec2));
+  }
+  return bytes;
+}
 
 /// The sections that an entry may have inside, beside its keys.
 const std::vector<std::string> inner_sections = {"repeat", "motion", "hole", "materials"};
@@ -50,7 +66,14 @@ class SolidReader {
     for (const auto& [inner, type] : {std::pair{"hole", "prism"}, std::pair{"materials", "mesh"}})
       if (const Node* node = entry_.find(inner); node && !section.name.ends_with(fmt::format("\"{}\"", type)))
         faults_.add(node->key_place, fmt::format("'{}' belongs to solids of type '{}', not to {}", inner, type, section.name));
-    read_section(entry_, section, &keys, faults_, inner_sections);
+    std::vector<std::string> inner = inner_sections;
+    if constexpr (!std::is_base_of_v<TiltKeys, K>)
+      for (const char* tilt : {"pitch_deg", "roll_deg"})
+        if (const Node* node = entry_.find(tilt)) {
+          faults_.add(node->key_place, fmt::format("'{}' is not for {}, expected a box, cylinder, prism, mesh, tree or hedge: only they can be tilted", tilt, section.name));
+          inner.push_back(tilt);
+        }
+    read_section(entry_, section, &keys, faults_, inner);
     Solid solid;
     solid.name = keys.name.empty() ? fmt::format("{} {}", keys.type, world_.solids.size() + 1) : keys.name;
     solid.position = keys.position;
@@ -64,8 +87,29 @@ class SolidReader {
     std::vector<Solid> body = body_of(keys, solid);
     if (const Node* motion = entry_.find("motion")) add_motion(*motion, body);
     if (const Node* repeat = entry_.find("repeat")) body = repeated(*repeat, std::move(body));
-    if (!keys.instances.empty()) body = instances(keys.instances, std::move(body));
+    if (entry_.find("instances")) body = instances(std::move(body));
+    if (!body.empty() && (too_many(entry_.place, body, 1.0) || too_far(body))) return;
     for (Solid& part : body) world_.solids.push_back(std::move(part));
+  }
+
+  /// Keys are in range each, but a repeat, a table or a scale comes on top of them.
+  bool too_far(const std::vector<Solid>& body) {
+    for (const Solid& solid : body) {
+      const glm::dvec3 p = solid.position;
+      if (const double farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); farthest > largest_m) {
+        faults_.add(entry_.place, fmt::format("'{}' comes to lie at [{}, {}, {}], expected at most {} m from 0 along each axis", solid.name, p.x, p.y, p.z, largest_m));
+        return true;
+      }
+      const auto* mesh = std::get_if<MeshSolid>(&solid.shape);
+      if (!mesh) continue;
+      double reach = 0.0;
+      for (int i = 0; i < 3; ++i) reach = std::max({reach, std::abs(mesh->mesh->low[i]), std::abs(mesh->mesh->high[i])});
+      if (reach * mesh->scale > largest_m) {
+        faults_.add(entry_.place, fmt::format("'{}' reaches {} m from its origin, expected at most {}: make 'scale' smaller", solid.name, reach * mesh->scale, largest_m));
+        return true;
+      }
+    }
+    return false;
   }
 
   // --- the solids of one entry, at their own pose
@@ -88,6 +132,8 @@ class SolidReader {
   std::vector<Solid> body_of(PrismKeys& keys, Solid solid) {
     const Node* node = entry_.find("points_m");
     const bool read = node && (keys.shape.outline.size() > 0 || (node->array() && node->array()->empty()));
+    bool holes_read = true;
+    std::vector<Place> hole_places;
     std::size_t points = keys.shape.outline.size();
     if (const Node* holes = entry_.find("hole")) {
       if (!holes->array()) faults_.add(holes->place, "'hole' is not an array of tables, expected entries [[solid.hole]]");
@@ -96,20 +142,38 @@ class SolidReader {
           HoleKeys hole_keys;
           read_section(hole, hole_section(), &hole_keys, faults_);
           points += hole_keys.points.size();
+          const Node* hole_points = hole.find("points_m");
+          hole_places.push_back(hole_points ? hole_points->place : hole.place);
+          holes_read = holes_read && hole_points && hole_points->array() && hole_points->array()->size() == hole_keys.points.size();
           keys.shape.holes.push_back(std::move(hole_keys.points));
         }
     }
-    if (points > most_points) faults_.add(entry_.place, fmt::format("the prism has {} points, expected at most {}: give it as a mesh", points, most_points));
-    else if (read)
+    if (points > most_points) faults_.add(node ? node->place : entry_.place, fmt::format("the prism has {} points with its holes, expected at most {}: give it as a mesh", points, most_points));
+    else if (read && holes_read)
       if (const auto fault = polygon_fault(keys.shape.outline, keys.shape.holes))
-        faults_.add(node->place, fmt::format("'points_m' and the holes are not simple polygons: {}", *fault));
+        faults_.add(place_in(*fault, hole_places, node->place), fmt::format("the prism is not a simple polygon: {}{}", *fault, repeats_its_first(keys.shape) ? ", leave out the last" : ""));
     solid.shape = std::move(keys.shape);
     return {std::move(solid)};
   }
+  /// Where the points are that a fault of a polygon is about: those of the first hole that it names, else the outline.
+  static Place place_in(const std::string& fault, const std::vector<Place>& holes, const Place& outline) {
+    const std::size_t at = fault.find("hole ");
+    const std::size_t number = at == fault.npos ? 0 : std::strtoul(fault.c_str() + at + 5, nullptr, 10);
+    return number >= 1 && number <= holes.size() ? holes[number - 1] : outline;
+  }
+  static bool repeats_its_first(const Prism& prism) { return prism.outline.size() > 3 && prism.outline.front() == prism.outline.back(); }
   std::vector<Solid> body_of(MapKeys& keys, Solid solid) {
-    if (keys.file.empty()) return {};  // told already
-    MapOptions options{keys.image.empty() ? std::filesystem::path{} : folder_ / keys.image, keys.unknown_is_matter, keys.height, keys.cell_size};
-    auto grid = read_any_map(folder_ / keys.file, options);
+    const auto file = file_of(entry_, "file", folder_, faults_);
+    const bool own_image = entry_.find("image") != nullptr;
+    const auto image = own_image ? file_of(entry_, "image", folder_, faults_) : std::filesystem::path{};
+    if (!file || !image) return {};  // told already
+    const bool movingai = file->extension() == ".map";
+    if (own_image && movingai) faults_.add(entry_.find("image")->key_place, fmt::format("'image' is given, but '{}' has none, expected a map_server YAML file with it", keys.file));
+    if (keys.cell_size && !movingai)
+      faults_.add(entry_.find("cell_size_m")->key_place, fmt::format("'cell_size_m' is given, but '{}' tells its own resolution, expected it with a .map file only", keys.file));
+    if ((own_image && movingai) || (keys.cell_size && !movingai)) return {};
+    MapOptions options{*image, keys.unknown_is_matter, keys.height, keys.cell_size};
+    auto grid = read_any_map(*file, options);
     if (!grid) {
       faults_.take(grid.error());
       return {};
@@ -118,15 +182,15 @@ class SolidReader {
     return {std::move(solid)};
   }
   std::vector<Solid> body_of(MeshKeys& keys, const Solid& solid) {
-    if (keys.file.empty()) return {};
+    const auto file = file_of(entry_, "file", folder_, faults_);
+    if (!file) return {};
     std::vector<std::pair<std::string, Node>> given;
     if (const Node* table = entry_.find("materials")) {
       if (table->table()) given = *table->table();
       else faults_.add(table->place, fmt::format("'materials' is {}, expected a table [solid.materials] of MTL names and materials", table->kind_in_words()));
     }
-    std::vector<std::string> mtl_names;
-    const auto material_of = [&](const std::string& mtl) {
-      mtl_names.push_back(mtl);
+    std::map<std::string, std::uint32_t> chosen;  // asked for more than once: what is wrong is told once
+    const auto choose = [&](const std::string& mtl) {
       for (const auto& [name, node] : given) {
         if (name != mtl) continue;
         if (const auto* text = std::get_if<std::string>(&node.content)) return materials_.index_of(*text, node.place);
@@ -134,19 +198,27 @@ class SolidReader {
       }
       return !mtl.empty() && materials_.knows(mtl) ? materials_.index_of(mtl, entry_.place) : solid.material;
     };
-    auto solids = solids_of_obj(folder_ / keys.file, keys.up == "y", solid, {nullptr, keys.scale, keys.sheet_thickness}, material_of, world_);
+    const auto material_of = [&](const std::string& mtl) {
+      const auto found = chosen.find(mtl);
+      return found != chosen.end() ? found->second : chosen.emplace(mtl, choose(mtl)).first->second;
+    };
+    auto solids = solids_of_obj(*file, keys.up == "y", solid, {nullptr, keys.scale, keys.sheet_thickness}, material_of, world_);
     if (!solids) {
       faults_.take(solids.error());
       return {};
     }
+    std::vector<std::string> mtl_names;
+    for (const auto& [mtl, index] : chosen)
+      if (!mtl.empty()) mtl_names.push_back(mtl);
+    const std::string expected = mtl_names.empty() ? "none: its faces name no MTL materials, 'material' is enough" : fmt::format("one of '{}'", fmt::join(mtl_names, "', '"));
     for (const auto& [name, node] : given)
-      if (std::find(mtl_names.begin(), mtl_names.end(), name) == mtl_names.end())
-        faults_.add(node.key_place, fmt::format("no face of '{}' has the MTL material '{}', expected one of '{}'{}", keys.file, name, fmt::join(mtl_names, "', '"), did_you_mean(name, mtl_names)));
+      if (!chosen.contains(name)) faults_.add(node.key_place, fmt::format("no face of '{}' has the MTL material '{}', expected {}{}", keys.file, name, expected, did_you_mean(name, mtl_names)));
     return std::move(*solids);
   }
   std::vector<Solid> body_of(TreeKeys& keys, const Solid& solid) {
     if (keys.spec.crown_base >= keys.spec.height) {
-      faults_.add(entry_.place, fmt::format("'crown_base_m' is {}, expected less than height_m, {}", keys.spec.crown_base, keys.spec.height));
+      const Node* base = entry_.find("crown_base_m");
+      faults_.add(base ? base->place : entry_.place, fmt::format("'crown_base_m' is {}, expected less than height_m, {}", keys.spec.crown_base, keys.spec.height));
       return {};
     }
     return foliage(keys, solid, [&] { return grow_tree(keys.spec); });
@@ -154,7 +226,8 @@ class SolidReader {
   std::vector<Solid> body_of(HedgeKeys& keys, const Solid& solid) {
     const glm::dvec3 size = keys.spec.size;
     if (const double leaves = size.x * size.y * size.z * keys.spec.leaves_per_m3; leaves > 1e6) {
-      faults_.add(entry_.place, fmt::format("the hedge has {:.0f} leaves, expected at most 1000000: make leaves_per_m3 or size_m smaller, or repeat a shorter one", leaves));
+      const Node *density = entry_.find("leaves_per_m3"), *sides = entry_.find("size_m");
+      faults_.add(density ? density->place : sides ? sides->place : entry_.place, fmt::format("the hedge has {:.0f} leaves, expected at most 1000000: make leaves_per_m3 or size_m smaller, or repeat a shorter one", leaves));
       return {};
     }
     return foliage(keys, solid, [&] { return grow_hedge(keys.spec); });
@@ -195,24 +268,36 @@ class SolidReader {
     motion->start_s = keys.start_s;
     motion->spin = radians(keys.spin_deg_s);
     motion->mode = keys.mode == "loop" ? Motion::Mode::loop : keys.mode == "back_and_forth" ? Motion::Mode::back_and_forth : Motion::Mode::once;
+    // Without a position of its own a solid is at 0, and a map where its own origin has it.
     for (Solid& solid : body) {
+      const glm::dvec3 own = solid.position;
       solid.motion = motion;
-      solid.position = motion->points.front();
+      move(solid, [&](const glm::dvec3& p) { return own + p; });
+      solid.position = solid.motion->points.front();
     }
   }
 
   /// Moves a solid and its way.
-  static void shift(Solid& solid, const glm::dvec3& by) {
-    solid.position += by;
+  template <class Place>
+  static void move(Solid& solid, const Place& placed) {
+    solid.position = placed(solid.position);
     if (!solid.motion) return;
     auto motion = std::make_shared<Motion>(*solid.motion);
-    for (glm::dvec3& p : motion->points) p += by;
+    for (glm::dvec3& p : motion->points) p = placed(p);
     solid.motion = std::move(motion);
   }
 
-  bool too_many(const Place& place, double solids) {
-    if (static_cast<double>(world_.solids.size()) + solids <= static_cast<double>(most_solids)) return false;
-    faults_.add(place, fmt::format("that makes {:.0f} solids, expected at most {} in a world", static_cast<double>(world_.solids.size()) + solids, most_solids));
+  bool too_many(const Place& place, const std::vector<Solid>& body, double copies) {
+    const double solids = static_cast<double>(world_.solids.size()) + static_cast<double>(body.size()) * copies;
+    double bytes = 0.0;
+    for (const Solid& solid : body) bytes += bytes_of(solid) * copies;
+    if (solids > static_cast<double>(most_solids)) {
+      faults_.add(place, fmt::format("that makes {:.0f} solids, expected at most {} in a world", solids, most_solids));
+    } else if (copies > 1.0 && bytes > most_copied_bytes) {
+      faults_.add(place, fmt::format("that makes copies of {:.0f} bytes, expected at most {:.0f}: copy a simpler shape less often", bytes, most_copied_bytes));
+    } else {
+      return false;
+    }
     return true;
   }
 
@@ -224,7 +309,7 @@ class SolidReader {
         faults_.add(node.find("count")->place, fmt::format("'count' has {}, expected whole numbers", keys.count[i]));
         return {};
       }
-    if (body.empty() || too_many(node.place, static_cast<double>(body.size()) * keys.count.x * keys.count.y * keys.count.z)) return {};
+    if (body.empty() || too_many(node.place, body, keys.count.x * keys.count.y * keys.count.z)) return {};
     const glm::dmat3 turn = rotation_of(body.front());
     std::vector<Solid> all;
     int number = 0;
@@ -235,20 +320,23 @@ class SolidReader {
           for (const Solid& part : body) {
             all.push_back(part);
             all.back().name = numbered(part.name, number);
-            shift(all.back(), turn * (glm::dvec3(i, j, k) * keys.spacing));
+            const glm::dvec3 by = turn * (glm::dvec3(i, j, k) * keys.spacing);
+            move(all.back(), [&](const glm::dvec3& p) { return p + by; });
           }
         }
     return all;
   }
 
-  std::vector<Solid> instances(const std::string& file, std::vector<Solid> body) {
+  std::vector<Solid> instances(std::vector<Solid> body) {
     const Place place = entry_.find("instances")->place;
-    const auto poses = read_pose_table(folder_ / file);
+    const auto file = file_of(entry_, "instances", folder_, faults_);
+    if (!file) return {};
+    const auto poses = read_pose_table(*file);
     if (!poses) {
       faults_.take(poses.error());
       return {};
     }
-    if (too_many(place, static_cast<double>(body.size()) * static_cast<double>(poses->size()))) return {};
+    if (too_many(place, body, static_cast<double>(poses->size()))) return {};
     std::vector<Solid> all;
     all.reserve(body.size() * poses->size());
     int number = 0;
@@ -270,15 +358,17 @@ class SolidReader {
         }
         // The solid's own pose is within the pose of the table.
         const glm::dmat3 turn = rotation_of(pose.yaw, pose.pitch, pose.roll);
-        const glm::dvec3 own = solid.position;
-        shift(solid, pose.position + turn * (pose.scale * own) - own);
+        move(solid, [&](const glm::dvec3& p) { return pose.position + turn * (pose.scale * p); });
         if (pose.pitch == 0.0 && pose.roll == 0.0) {
           solid.yaw += pose.yaw;
         } else {
           const glm::dmat3 all_turns = turn * rotation_of(solid);
-          solid.pitch = std::asin(std::clamp(-all_turns[0][2], -1.0, 1.0));
-          solid.yaw = std::atan2(all_turns[0][1], all_turns[0][0]);
-          solid.roll = std::atan2(all_turns[1][2], all_turns[2][2]);
+          const double level = std::hypot(all_turns[0][0], all_turns[0][1]);
+          solid.pitch = std::atan2(-all_turns[0][2], level);
+          // Where its x axis points straight up or down, yaw and roll turn it about the same axis: all of it is yaw.
+          const bool steep = level < 1e-9;
+          solid.yaw = steep ? std::atan2(-all_turns[1][0], all_turns[1][1]) : std::atan2(all_turns[0][1], all_turns[0][0]);
+          solid.roll = steep ? 0.0 : std::atan2(all_turns[1][2], all_turns[2][2]);
         }
       }
     }
@@ -299,6 +389,18 @@ class SolidReader {
 };
 
 }  // namespace
+
+std::optional<std::filesystem::path> file_of(const Node& table, const char* key, const std::filesystem::path& folder, Faults& faults) {
+  const Node* node = table.find(key);
+  const auto* name = node ? std::get_if<std::string>(&node->content) : nullptr;
+  if (!name) return std::nullopt;
+  const std::filesystem::path file = folder / *name;
+  std::error_code unknown;
+  if (!name->empty() && std::filesystem::exists(file, unknown)) return file;
+  const std::string what = name->empty() ? "empty" : fmt::format("'{}', which does not exist", *name);
+  faults.add(node->place, fmt::format("'{}' is {}, expected the path of a file, relative to the folder of this one", key, what));
+  return std::nullopt;
+}
 
 void read_solid(const Node& entry, const std::filesystem::path& folder, MaterialFinder& materials, World& world, Faults& faults) {
   SolidReader(entry, folder, materials, world, faults).read();

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,10 @@ class MaterialFinder {
 
 /// Reads an entry and appends its solids: one, or those of all its parts, repeats and instances. Files are relative to `folder`.
 void read_solid(const Node& entry, const std::filesystem::path& folder, MaterialFinder& materials, World& world, Faults& faults);
+
+/// The file that a key of a table names, relative to `folder`; nothing, and a fault at the key's value, if there is none. (Nothing alone if the key is missing or
+/// is no text: the section tells.)
+std::optional<std::filesystem::path> file_of(const Node& table, const char* key, const std::filesystem::path& folder, Faults& faults);
 
 /// A grid map as a solid: its frame is the map's own, placed by the solid's pose.
 void place_map(Solid& solid, GridMap grid, const MapOptions& options);

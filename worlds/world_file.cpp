@@ -17,19 +17,25 @@
 namespace thicket {
 namespace {
 
-/// Worlds may include one another; deeper than this they do so without end.
-constexpr int deepest_include = 8;
+// Worlds may include one another: one that includes itself, or does so without end, is told.
+constexpr std::size_t deepest_include = 8, most_includes = 10000;
+
+/// The files that are being read, each included by the one before it, and how many have been read.
+struct Includes {
+  std::vector<std::filesystem::path> open;
+  std::size_t count = 0;
+};
 
 struct ReadWorld {
   World world;
   std::optional<SlabKeys> floor, ceiling;  ///< which come last, when it is known how large they are
   std::uint32_t floor_material = 0, ceiling_material = 0;
 };
-Result<ReadWorld> read_world_at(const std::filesystem::path& file, const MapOptions& map, int depth);
+Result<ReadWorld> read_world_at(const std::filesystem::path& file, const MapOptions& map, Includes& includes);
 
 class WorldReader final : public MaterialFinder {
  public:
-  WorldReader(ReadWorld& result, int depth) : result_(result), world_(result.world), depth_(depth) {}
+  WorldReader(ReadWorld& result, Includes& includes) : result_(result), world_(result.world), includes_(includes) {}
 
   void read(const Node& root) {
     HeaderKeys header;
@@ -90,10 +96,22 @@ class WorldReader final : public MaterialFinder {
   void read_include(const Node& entry) {
     IncludeKeys keys;
     read_section(entry, include_section(), &keys, faults);
-    if (keys.file.empty()) return;
+    const auto file = file_of(entry, "file", world_.file.parent_path(), faults);
+    if (!file) return;
     const Node* node = entry.find("file");
-    if (depth_ >= deepest_include) return faults.add(node->place, fmt::format("'file' is '{}', which is included {} deep, expected no more: does it include itself?", keys.file, depth_ + 1));
-    auto read = read_world_at(world_.file.parent_path() / keys.file, {}, depth_ + 1);
+    std::error_code unknown;
+    const auto same = [&](const std::filesystem::path& open) { return std::filesystem::equivalent(open, *file, unknown); };
+    if (const auto found = std::find_if(includes_.open.begin(), includes_.open.end(), same); found != includes_.open.end()) {
+      std::string way;
+      for (auto f = found; f != includes_.open.end(); ++f) way += f->filename().string() + " includes ";
+      return faults.add(node->place, fmt::format("'file' is '{}', which includes itself ({}{}), expected another world", keys.file, way, file->filename().string()));
+    }
+    if (includes_.open.size() > deepest_include) return faults.add(node->place, fmt::format("'file' is '{}', which is included {} deep, expected at most {}", keys.file, includes_.open.size(), deepest_include));
+    if (++includes_.count > most_includes) {
+      if (includes_.count == most_includes + 1) faults.add(node->place, fmt::format("the world includes more than {} files, expected at most that: use 'instances' or [solid.repeat]", most_includes));
+      return;
+    }
+    auto read = read_world_at(*file, {}, includes_);
     if (!read) return faults.take(read.error());
     World& other = read->world;
     if (world_.solids.size() + other.solids.size() > most_solids)
@@ -142,7 +160,7 @@ class WorldReader final : public MaterialFinder {
 
   ReadWorld& result_;
   World& world_;
-  int depth_;
+  Includes& includes_;
   std::optional<std::vector<Material>> presets_;
   const std::vector<Material> no_presets_;
 };
@@ -196,7 +214,7 @@ Solid slab_solid(const SlabKeys& keys, std::uint32_t material, bool ceiling, con
   return solid;
 }
 
-Result<ReadWorld> read_world_at(const std::filesystem::path& file, const MapOptions& map, int depth) {
+Result<ReadWorld> read_world_at(const std::filesystem::path& file, const MapOptions& map, Includes& includes) {
   const std::string ending = file.extension().string();
   if (ending == ".yaml" || ending == ".yml" || ending == ".map") {
     auto world = world_of_map(file, map);
@@ -214,8 +232,10 @@ Result<ReadWorld> read_world_at(const std::filesystem::path& file, const MapOpti
   if (!document) return document.error();
   ReadWorld result;
   result.world.file = file;
-  WorldReader reader(result, depth);
+  includes.open.push_back(file);
+  WorldReader reader(result, includes);
   reader.read(*document);
+  includes.open.pop_back();
   if (!reader.faults.none()) return reader.faults.error();
   return result;
 }
@@ -223,7 +243,8 @@ Result<ReadWorld> read_world_at(const std::filesystem::path& file, const MapOpti
 }  // namespace
 
 Result<World> read_world(const std::filesystem::path& file, const MapOptions& map) {
-  auto read = read_world_at(file, map, 0);
+  Includes includes;
+  auto read = read_world_at(file, map, includes);
   if (!read) return read.error();
   World& world = read->world;
   if (read->floor || read->ceiling) {

@@ -102,7 +102,7 @@ SectionOf<MapKeys> map_solid_section() {
   section.key("file", &MapKeys::file, "the map's YAML file (map_server) or .map file (MovingAI), relative to this one")
       .required()
       .key("image", &MapKeys::image, "an image to read instead of the one that the YAML names, relative to this file")
-      .key("cell_size_m", &MapKeys::cell_size, "m", above_up_to(0.0, 1e6), "size of a cell of a .map file, which does not tell; 1 if it is not given")
+      .key("cell_size_m", &MapKeys::cell_size, "m", between(least_cell_m, largest_cell_m), "size of a cell of a .map file, which does not tell; 1 if it is not given")
       .key("height_m", &MapKeys::height, "m", size, "height")
       .key("unknown_is_matter", &MapKeys::unknown_is_matter, "whether unknown cells are matter");
   return section;

@@ -69,6 +69,7 @@ namespace {
 
 constexpr std::uintmax_t largest_document = std::uintmax_t{1} << 26;  // bytes; what describes a world or a mission is far smaller, and large data have files of their own
 constexpr int deepest_key = 1000;
+constexpr std::size_t most_faults_told = 100;  // nobody reads more
 
 /// Where a dotted key is deeper than any that is meant: the parser goes down it by recursion, and would crash. (It limits nested arrays and tables itself.)
 std::optional<Place> too_deep(std::string_view text, const std::string& name) {
@@ -95,7 +96,8 @@ Result<Node> parse_document(std::string_view text, const std::string& name) {
   try {
     return convert(toml::parse(text, std::string_view(name)), name);
   } catch (const toml::parse_error& fault) {
-    return Error{fmt::format("{}: {}", to_string(place_of(fault.source(), name)), fault.description())};
+    const bool open_text = fault.description().find("unescaped control characters") != std::string_view::npos;
+    return Error{fmt::format("{}: {}{}", to_string(place_of(fault.source(), name)), fault.description(), open_text ? ": is a closing quote missing?" : "")};
   }
 }
 
@@ -113,7 +115,10 @@ void Faults::add(const Place& place, std::string_view what) {
 }
 
 Error Faults::error() const {
-  return {fmt::format("{}", fmt::join(messages_, "\n"))};
+  const std::size_t told = std::min(messages_.size(), most_faults_told);
+  std::string text = fmt::format("{}", fmt::join(messages_.begin(), messages_.begin() + static_cast<std::ptrdiff_t>(told), "\n"));
+  if (told < messages_.size()) text += fmt::format("\nand {} faults more", messages_.size() - told);
+  return {std::move(text)};
 }
 
 }  // namespace thicket
