@@ -44,9 +44,14 @@ struct Corner {
 };
 
 inline Corner sheared(const ShearedRay& ray, const glm::dvec3& point) {
-  const glm::dvec3 p = point - ray.origin;
-  return {p[ray.x] - ray.shear_x * p[ray.z], p[ray.y] - ray.shear_y * p[ray.z], p[ray.z]};
+  // Through pointers: an index into a glm vector is a switch.
+  const double *p = &point.x, *o = &ray.origin.x;
+  const double z = p[ray.z] - o[ray.z];
+  return {(p[ray.x] - o[ray.x]) - ray.shear_x * z, (p[ray.y] - o[ray.y]) - ray.shear_y * z, z};
 }
+
+/// Whether three numbers lie strictly on one side of 0.
+inline bool one_side(double a, double b, double c) { return (a > 0.0 && b > 0.0 && c > 0.0) || (a < 0.0 && b < 0.0 && c < 0.0); }
 
 /// On which side of the edge a -> b the moved axis passes: the sign of a.x b.y - a.y b.x, and of what the move adds where that is 0.
 inline int edge_sign(const Corner& a, const Corner& b) {
@@ -77,6 +82,8 @@ inline bool outside_plane(const glm::dvec3& origin, const glm::dvec3& a, const g
 inline bool meet(const ShearedRay& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, TriangleHit& hit) {
   using namespace triangle_rays_detail;
   const Corner p = sheared(ray, a), q = sheared(ray, b), r = sheared(ray, c);
+  // Most triangles that Embree offers lie beside the axis: the signs of their edges, which are exact, could not agree.
+  if (one_side(p.x, q.x, r.x) || one_side(p.y, q.y, r.y)) return false;
   const int way = edge_sign(p, q);
   if (way == 0 || edge_sign(q, r) != way || edge_sign(r, p) != way) return false;
   hit.enters = way < 0;

@@ -10,6 +10,7 @@
 #endif
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -135,6 +136,13 @@ enum class Wanted { closest, all };
 class BareScene {
  public:
   BareScene() : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_.get())) {
+    rtcSetDeviceMemoryMonitorFunction(
+        device_.get(),
+        [](void* user, ssize_t bytes, bool) {
+          *static_cast<std::atomic<std::ptrdiff_t>*>(user) += bytes;
+          return true;
+        },
+        &bytes_);
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
   }
@@ -165,6 +173,7 @@ class BareScene {
   void build() { rtcCommitScene(scene_.get()); }
 
   RTCScene get() const { return scene_.get(); }
+  std::ptrdiff_t bytes() const { return bytes_; }  ///< as Embree reports them, the triangles included
 
  private:
   void attach(RTCGeometry geometry) {
@@ -231,6 +240,7 @@ class BareScene {
     void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
   };
   std::vector<glm::vec4> spheres_;
+  std::atomic<std::ptrdiff_t> bytes_{0};  // outlives the device
   std::unique_ptr<RTCDeviceTy, Release> device_;
   std::unique_ptr<RTCSceneTy, Release> scene_;
 };

@@ -25,6 +25,7 @@ void register_scene();
 void register_radar();
 void register_nav();
 void register_missions();
+void register_worlds();
 
 /// `name` is room/what/.../peer.
 template <class Work>
