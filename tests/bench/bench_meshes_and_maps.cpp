@@ -169,7 +169,7 @@ void register_builds() {
 World mesh_spheres() {
   World world = empty_world();
   Triangles octahedron;
-  octahedron.add_sphere(glm::dvec3(0.0), 1.0, 4);  // 2048 triangles are nearer to 1280 of an icosahedron than 512 are
+  octahedron.add_sphere(glm::dvec3(0.0), 1.0, 4);
   std::vector<glm::uvec3> triangles;
   for (const auto& f : octahedron.faces) {
     const glm::dvec3 a(octahedron.vertices[f[0]]), b(octahedron.vertices[f[1]]), c(octahedron.vertices[f[2]]);
@@ -181,7 +181,7 @@ World mesh_spheres() {
   return world;
 }
 
-/// A bumpy sphere of 10^6 triangles about the sensor, which faces inward from everywhere: every ray meets it once, from inside.
+/// Two bumpy spheres, 8 and 4 m wide, of 10^6 triangles (one mesh) on either side of the sensor.
 World large_mesh() {
   World world = empty_world();
   const SharedMesh mesh = bumpy_sphere(1000, 501);
