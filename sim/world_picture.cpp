@@ -66,10 +66,18 @@ std::array<Vector, 8> corners_of(const Bounds& box) {
   return corners;
 }
 
+/// Places of the sky that each ray of a pixel looks at from what it met: eight of a pixel, which is enough for a soft shade and has no grain.
+constexpr std::size_t places = 2;
+Vector place_of_sky(std::size_t sample, std::size_t place) {
+  const std::size_t k = sample * places + place;
+  const double azimuth = (static_cast<double>(k) + 0.5) * std::numbers::pi / 4.0, elevation = k % 2 ? 0.45 : 1.0;
+  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
+}
+
 // --- light
 
-const Vector sun = glm::normalize(Vector(-0.32, -0.55, 0.80));
-const Vector sun_light(1.02, 0.97, 0.88), sky_light(0.42, 0.46, 0.52), ground_light(0.24, 0.22, 0.20);
+const Vector sun = glm::normalize(Vector(-0.72, -0.20, 0.74));
+const Vector sun_light(1.02, 0.97, 0.88), sky_light(0.50, 0.55, 0.63), ground_light(0.30, 0.28, 0.25);
 
 Vector sky(const Vector& direction) {
   static const Vector zenith = to_linear({0.45, 0.64, 0.86}), horizon = to_linear({0.90, 0.94, 0.97}), below = to_linear({0.80, 0.82, 0.83});
@@ -100,6 +108,7 @@ struct Surface {
   bool there = false;
   Vector point{0.0}, normal{0.0}, colour{0.0}, shadow_from{0.0};
   double range = infinity, facing_sun = 0.0, gloss = 0.0;
+  double sunshine = 0.0, skylight = 1.0;  ///< what other matter leaves of them
 };
 
 /// What is in front of that surface: light of its own, and what is left of the light from behind.
@@ -111,7 +120,7 @@ struct Veil {
 class Painter {
  public:
   Painter(const Scene& scene, const Camera& camera, const PictureView& view, const Bounds& box)
-      : scene_(scene), camera_(camera), view_(view), materials_(scene.world().materials), far_(3.0 * glm::distance(camera.from, 0.5 * (box.low + box.high)) + 2.0 * glm::distance(box.low, box.high)) {
+      : scene_(scene), camera_(camera), view_(view), materials_(scene.world().materials), far_(3.0 * glm::distance(camera.from, 0.5 * (box.low + box.high)) + 2.0 * glm::distance(box.low, box.high)), reach_(0.25 * glm::distance(box.low, box.high)) {
     for (Material& material : materials_) {
       const Look& look = looks_.emplace_back(look_of(material));
       material.dielectric.reset();
@@ -123,7 +132,7 @@ class Painter {
 
   void paint_row(int row, std::uint32_t* pixels) const {
     const auto count = static_cast<std::size_t>(view_.width) * samples;
-    std::vector<Ray> rays(count), to_sun;
+    std::vector<Ray> rays(count);
     for (std::size_t i = 0; i < count; ++i) {
       const double x = static_cast<double>(i / samples) + (i & 1 ? 0.75 : 0.25), y = row + (i & 2 ? 0.75 : 0.25);
       rays[i] = {camera_.from, camera_.direction(2.0 * x / view_.width - 1.0, 1.0 - 2.0 * y / view_.height), infinity};
@@ -132,24 +141,51 @@ class Painter {
     scene_.crossings(rays, materials_, darkest, lists);
     std::vector<Surface> surfaces(count);
     std::vector<Veil> veils(count);
-    std::vector<std::size_t> lit;
-    for (std::size_t i = 0; i < count; ++i) {
-      look_along(rays[i], lists[i], surfaces[i], veils[i]);
-      if (!surfaces[i].there || surfaces[i].facing_sun <= 0.0) continue;
-      lit.push_back(i);
-      to_sun.push_back({surfaces[i].shadow_from, towards_sun(i % samples), infinity});
-    }
-    scene_.crossings(to_sun, materials_, darkest, lists);
-    std::vector<double> sunshine(count, 0.0);
-    for (std::size_t k = 0; k < lit.size(); ++k) sunshine[lit[k]] = passed(lists[k]);
+    for (std::size_t i = 0; i < count; ++i) look_along(rays[i], lists[i], surfaces[i], veils[i]);
+    light_up(surfaces);
     for (std::size_t p = 0; p < static_cast<std::size_t>(view_.width); ++p) {
       Vector sum(0.0);
-      for (std::size_t i = p * samples; i < (p + 1) * samples; ++i) sum += glm::min(veils[i].light + veils[i].left * light_of(rays[i].direction, surfaces[i], sunshine[i]), Vector(1.0));
+      for (std::size_t i = p * samples; i < (p + 1) * samples; ++i) sum += glm::min(veils[i].light + veils[i].left * light_of(rays[i].direction, surfaces[i]), Vector(1.0));
       pixels[p] = to_pixel(sum / static_cast<double>(samples));
     }
   }
 
  private:
+  /// What of the sun and of the sky each surface sees.
+  void light_up(std::vector<Surface>& surfaces) const {
+    std::vector<Ray> rays;
+    std::vector<std::size_t> of;
+    CrossingLists lists;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      if (!surfaces[i].there || surfaces[i].facing_sun <= 0.0) continue;
+      of.push_back(i);
+      rays.push_back({surfaces[i].shadow_from, towards_sun(i % samples), infinity});
+    }
+    scene_.crossings(rays, materials_, darkest, lists);
+    for (std::size_t k = 0; k < of.size(); ++k) surfaces[of[k]].sunshine = passed(lists[k]);
+
+    rays.clear();
+    of.clear();
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+      for (std::size_t place = 0; surfaces[i].there && place < places; ++place) {
+        const Vector direction = place_of_sky(i % samples, place);
+        if (glm::dot(direction, surfaces[i].normal) <= 0.02) continue;
+        of.push_back(i);
+        rays.push_back({surfaces[i].point + 1e-6 * (1.0 + surfaces[i].range) * surfaces[i].normal, direction, reach_});
+      }
+    scene_.crossings(rays, materials_, darkest, lists);
+    std::vector<double> seen(surfaces.size(), 0.0), asked(surfaces.size(), 0.0);
+    for (std::size_t k = 0; k < of.size(); ++k) {
+      const double weight = glm::dot(rays[k].direction, surfaces[of[k]].normal);
+      // What is near takes more of the sky than what is far.
+      const auto first = std::find_if(lists[k].begin(), lists[k].end(), [&](const Crossing& c) { return look(c).kind == Look::Kind::solid; });
+      seen[of[k]] += weight * (first == lists[k].end() || first->enter >= reach_ ? 1.0 : 0.6 * first->enter / reach_);
+      asked[of[k]] += weight;
+    }
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+      if (asked[i] > 0.0) surfaces[i].skylight = seen[i] / asked[i];
+  }
+
   /// The sun is not a point: each of a pixel's rays looks at another part of it.
   static Vector towards_sun(std::size_t sample) {
     static constexpr double spread = 0.012;
@@ -233,17 +269,17 @@ class Painter {
     return share;
   }
 
-  Vector light_of(const Vector& direction, const Surface& s, double sunshine) const {
+  Vector light_of(const Vector& direction, const Surface& s) const {
     if (!s.there) return sky(direction);
     const Vector around = glm::mix(ground_light, sky_light, 0.5 + 0.5 * s.normal.z);
     // A little of the side that faces the camera keeps what is in the shade from being flat.
     const double front = 0.82 + 0.18 * std::max(0.0, -glm::dot(direction, s.normal));
-    Vector light = s.colour * (around * front + sunshine * s.facing_sun * sun_light);
+    Vector light = s.colour * (around * front * (0.35 + 0.65 * s.skylight) + s.sunshine * s.facing_sun * sun_light);
     if (s.gloss > 0.0) {
       const Vector mirrored = glm::reflect(direction, s.normal);
       const double rim = std::pow(1.0 - std::min(1.0, std::abs(glm::dot(direction, s.normal))), 5.0);
       light = glm::mix(light, mirrored.z > 0.0 ? sky(mirrored) : 0.6 * ground_light, s.gloss * (0.18 + 0.5 * rim));
-      light += sunshine * s.gloss * 0.5 * std::pow(std::max(0.0, glm::dot(mirrored, sun)), 60.0) * sun_light;
+      light += s.sunshine * s.gloss * 0.5 * std::pow(std::max(0.0, glm::dot(mirrored, sun)), 60.0) * sun_light;
     }
     const double haze = 1.0 - std::exp(-(s.range / far_) * (s.range / far_));
     return glm::mix(light, sky({direction.x, direction.y, 0.0}), haze);
@@ -254,7 +290,7 @@ class Painter {
   const PictureView& view_;
   std::vector<Material> materials_;  // as light meets them: attenuation is optical depth a metre
   std::vector<Look> looks_;
-  double far_, pixel_angle_ = 0.0;
+  double far_, reach_, pixel_angle_ = 0.0;  // how far away haze begins, and how far a surface looks for what hides the sky
 };
 
 bool is_called(const Solid& solid, const std::string& name) {
@@ -308,13 +344,28 @@ PictureView fitted(const World& world, const PictureView& view) {
     if (*full.from == *full.at) full.at = *full.from + Vector(1.0, 0.0, 0.0);  // a camera in the very middle looks east
     return full;
   }
-  const Vector back = glm::normalize(Vector(-0.56, -0.83, 0.80));
+  const Vector back = glm::normalize(Vector(-0.56, -0.83, 0.70));
   const Camera camera(full, *full.at + back, *full.at);
   double distance = 0.1;
-  for (const Vector& corner : corners_of(box)) {
-    const Vector c = corner - *full.at;
-    const double aside = std::max(std::abs(glm::dot(c, camera.right)) / camera.half_width, std::abs(glm::dot(c, camera.up)) / camera.half_height);
-    distance = std::max(distance, 1.04 * aside - glm::dot(c, camera.forward));
+  // As near as all corners allow; then what they take of the picture is moved to its middle, and again.
+  for (int round = 0; round < 6; ++round) {
+    distance = 0.1;
+    glm::dvec2 low(infinity), high(-infinity);
+    for (const Vector& corner : corners_of(box)) {
+      const Vector c = corner - *full.at;
+      const double aside = std::max(std::abs(glm::dot(c, camera.right)) / camera.half_width, std::abs(glm::dot(c, camera.up)) / camera.half_height);
+      distance = std::max(distance, 1.04 * aside - glm::dot(c, camera.forward));
+    }
+    if (view.at) break;
+    for (const Vector& corner : corners_of(box)) {
+      const Vector c = corner - *full.at;
+      const glm::dvec2 seen = glm::dvec2(glm::dot(c, camera.right), glm::dot(c, camera.up)) / (distance + glm::dot(c, camera.forward));
+      low = glm::min(low, seen);
+      high = glm::max(high, seen);
+    }
+    if (round == 5) break;
+    const glm::dvec2 off = 0.5 * (low + high) * distance;
+    *full.at += off.x * camera.right + off.y * camera.up;
   }
   full.from = *full.at + distance * back;
   return full;

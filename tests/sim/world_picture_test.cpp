@@ -1,9 +1,12 @@
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
+#include <cstdlib>
 #include <limits>
 #include <string>
 #include <utility>
+
+#include <glm/geometric.hpp>
 
 #include "temporary_folder.hpp"
 #include "thicket/base/files.hpp"
@@ -111,7 +114,10 @@ TEST_CASE("a picture without a camera holds the whole world, and leaves out the 
   CHECK(view.from->x < 97.0);
   CHECK(view.from->y < 49.0);
   CHECK(view.from->z > 3.5);
-  CHECK(*view.at == glm::dvec3(100.0, 50.0, 0.5));
+  CHECK(glm::distance(*view.at, glm::dvec3(100.0, 50.0, 0.5)) < 1.0);
+  PictureView aimed;
+  aimed.at = glm::dvec3(99.0, 50.0, 0.0);
+  CHECK(*fitted(world, aimed).at == *aimed.at);
   CHECK(glm::distance(*view.from, *view.at) < 20.0);
 
   const TemporaryFolder folder;
