@@ -27,5 +27,5 @@ look solids/mesh mesh --from -4.9,-7.1,3.3 --at 0,-0.9,0.5 --fov-deg 43
 look solids/tree tree --from -5.5,-11,3.6 --at 0.2,0,3.4
 look solids/hedge hedge --from -2.8,-5,2.3 --at 0.1,-0.1,0.7
 look solids/instances instances --from -7,-12,5.5 --at 0.3,2,1.3
-look solids/motion motion --time 2 --at 0.1,-0.1,0.6 --from -3.9,-6.6,4.2
+look solids/motion motion --time 2 --at -0.3,-0.2,0.6 --from -4.5,-7,4.4
 "$program" picture thicket/thicket --out "$root/docs/pictures/worlds/thicket.png" --size 800x500 --from -10.5,-11.5,5.2 --at 0.4,0,1.4
