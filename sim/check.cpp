@@ -29,7 +29,8 @@ void warn_of_stealth(const Simulation& simulation, std::vector<std::string>& war
   for (const Solid& solid : world.solids) {
     const Material& material = world.materials[solid.material];
     const double meets_hull = half_width_between(solid, ground + hull.z_low, ground + hull.z_high);
-    if (!material.stops_motion || meets_hull <= 0.0) continue;
+    // What only carries the hull, a floor, is not in its way.
+    if (!material.stops_motion || meets_hull <= 0.0 || extent(solid).high.z <= ground + hull.z_low) continue;
     if (!sensor.detects(material)) {
       undetected[material.name].push_back(solid.name);
     } else if (meets_hull - half_width_between(solid, plane, plane) > 0.5 * mission.planner.clearance_m) {

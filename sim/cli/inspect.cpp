@@ -93,8 +93,11 @@ int list_worlds() {
   return done;
 }
 
-int help_topic(const std::string& topic) {
-  if (topic == "mission") {
+int help_topic(const std::string& topic, bool markdown) {
+  if (markdown && topic != "world") return complain({fmt::format("--markdown is for `help world`, not for '{}'", topic)});
+  if (markdown) {
+    fmt::print("{}", describe_world_file(true));
+  } else if (topic == "mission") {
     fmt::print("A mission file is TOML. `thicket run FILE --set section.key=value` changes any of its keys.\n\n{}", describe_mission_file());
   } else if (topic == "world") {
     fmt::print("A world file is TOML; a map_server YAML is a world too.\n\n{}", describe_world_file());

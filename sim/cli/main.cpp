@@ -101,6 +101,19 @@ void add_convert(CLI::App& app, ConvertArguments& a) {
   app.add_option("--map-image", a.map_image, "for a map_server map: an image instead of the one that it names")->type_name("FILE");
 }
 
+void add_picture(CLI::App& app, PictureArguments& a) {
+  app.add_option("world", a.world, "world file, map_server YAML, MovingAI .map or OBJ; shipped ones are found from any directory")->required()->type_name("FILE");
+  app.add_option("--out", a.out, "picture to write, FILE.png")->required()->type_name("FILE");
+  app.add_option("--from", a.from, "where the camera is, metres (default: south-west of it all and above, so that everything is seen)")->type_name("X,Y,Z");
+  app.add_option("--at", a.at, "what is in the middle of the picture, metres (default: the middle of the world)")->type_name("X,Y,Z");
+  app.add_option("--fov-deg", a.fov_deg, "horizontal opening, degrees")->capture_default_str();
+  app.add_option("--size", a.size, "pixels")->capture_default_str()->type_name("WIDTHxHEIGHT");
+  app.add_option("--time", a.time, "the world as it stands at this time, seconds")->capture_default_str();
+  app.add_option("--hide", a.hide, "leave a solid out, by name; may be given often. A [ceiling] is left out if the camera is above it")->type_name("NAME")->allow_extra_args(false);
+  app.add_option("--cell-size", a.cell_size, "of a MovingAI map, metres a cell; 1 if it is not given")->type_name("M");
+  app.add_option("--map-image", a.map_image, "for a map_server world: an image instead of the one that it names")->type_name("FILE");
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app{"Thicket simulates robots that find their way by radar."};
   app.name("thicket");
@@ -132,6 +145,9 @@ int dispatch(int argc, char** argv) {
   ConvertArguments convert_arguments;
   CLI::App& convert = *app.add_subcommand("convert", "turn maps of one format into another: map_server, MovingAI, world");
   add_convert(convert, convert_arguments);
+  PictureArguments picture_arguments;
+  CLI::App& picture = *app.add_subcommand("picture", "draw what a world looks like, with the rays of the simulator");
+  add_picture(picture, picture_arguments);
   CLI::App& worlds = *app.add_subcommand("worlds", "list the worlds and missions that are shipped");
   MaterialsArguments materials_arguments;
   CLI::App& materials = *app.add_subcommand("materials", "print the shipped materials, or those of a world, as a radar of some frequency meets them");
@@ -140,6 +156,8 @@ int dispatch(int argc, char** argv) {
   materials.add_option("--thickness-m", materials_arguments.thickness_m, "also what a wall of this thickness reflects and lets through, at normal incidence")->type_name("M")->check(CLI::PositiveNumber);
   CLI::App& help = *app.add_subcommand("help", "explain every key of a mission or world file");
   help.add_option("topic", topic, "mission or world")->required();
+  bool markdown = false;
+  help.add_flag("--markdown", markdown, "of `world`: as docs/worlds.md has it");
 
   try {
     app.parse(argc, argv);
@@ -166,9 +184,10 @@ int dispatch(int argc, char** argv) {
   }
   if (truth.parsed()) return write_truth(truth_arguments);
   if (convert.parsed()) return convert_map(convert_arguments);
+  if (picture.parsed()) return draw_picture(picture_arguments);
   if (worlds.parsed()) return list_worlds();
   if (materials.parsed()) return list_materials(materials_arguments);
-  return help_topic(topic);
+  return help_topic(topic, markdown);
 }
 
 }  // namespace

@@ -60,6 +60,16 @@ struct MaterialsArguments {
   std::optional<double> thickness_m;
 };
 int list_materials(const MaterialsArguments& arguments);
-int help_topic(const std::string& topic);
+
+struct PictureArguments {
+  std::string world, out, map_image;
+  std::string from, at, size = "960x600";  ///< X,Y,Z, not given if empty; WIDTHxHEIGHT
+  double fov_deg = 50.0, time = 0.0;
+  std::vector<std::string> hide;
+  std::optional<double> cell_size;  ///< m, of a MovingAI map
+};
+int draw_picture(const PictureArguments& arguments);
+
+int help_topic(const std::string& topic, bool markdown);
 
 }  // namespace thicket::cli

@@ -57,7 +57,8 @@ Mission straight_to(double x) {
 
 TEST_CASE("shipped missions end as they say, without collision") {
   for (const auto& [name, expected] : {std::pair{"foliage_wall/bug1", "reached"}, {"foliage_wall/bug2", "reached"}, {"foliage_wall/closed", "unreachable"},
-                                       {"foliage_wall/smoke", "reached"}, {"rooms/convex", "reached"}, {"rooms/u", "reached"}, {"rooms/spiral", "reached"}}) {
+                                       {"foliage_wall/smoke", "reached"}, {"rooms/convex", "reached"}, {"rooms/u", "reached"}, {"rooms/spiral", "reached"},
+                                       {"thicket/way_round", "reached"}}) {
     CAPTURE(name);
     const Simulation simulation = finished(shipped(name));
     CHECK(verdict(simulation) == expected);
@@ -104,6 +105,28 @@ TEST_CASE("through foliage the radar maps at least 60 % of the hidden room, a li
       for (const double dy : {-0.1, 0.0, 0.1}) CHECK_FALSE(radar.map().view(radar.map().cell_at(glm::dvec2(solid.position) + glm::dvec2(dx, dy))).known);
   }
   CHECK(cores == 5);
+}
+
+TEST_CASE("through a thicket of leaves the radar maps at least 80 % of what is behind it, a lidar at most 20 %") {
+  const Simulation radar = finished(shipped("thicket/look_through")), lidar = finished(shipped("thicket/look_through_lidar"));
+  CHECK(verdict(radar) == "reached");
+  CHECK(verdict(lidar) == "reached");
+  CHECK(mission_warnings(radar).empty());
+  const auto region = *radar.mission().output.observed_region_m;
+  const auto by_radar = observed_share(radar, region), by_lidar = observed_share(lidar, region);
+  REQUIRE(by_radar);
+  REQUIRE(by_lidar);
+  MESSAGE("observed share behind the thicket: radar ", *by_radar, ", lidar ", *by_lidar);
+  CHECK(*by_radar >= 0.80);
+  CHECK(*by_lidar <= 0.20);
+}
+
+TEST_CASE("somebody who walks slowly across the way is gone around, without collision") {
+  const Simulation simulation = finished(shipped("moving/crossing"));
+  CHECK(verdict(simulation) == "reached");
+  CHECK(mission_warnings(simulation).empty());
+  CHECK(simulation.totals().least_clearance > 0.25);
+  CHECK(simulation.totals().path_length > 10.2);  // not straight: 9.9 m
 }
 
 TEST_CASE("with the first echo only the room behind the foliage stays hidden") {
