@@ -181,6 +181,7 @@ void Simulation::move() {
     clear_of_ = std::min(clearance_.distance, limit);
     if (contact <= way) {
       vehicle_.pose = arc.at(mission.step_s * share(contact));
+      scene_.set_time(began + mission.step_s * share(contact));
       totals_.path_length += length * share(contact);
       verdict_ = {Verdict::Kind::collided, fmt::format("the hull touched '{}' with the robot at ({:.2f}, {:.2f})", scene_.world().solids[clearance_.solid].name,
                                                        vehicle_.pose.position.x, vehicle_.pose.position.y)};

@@ -65,6 +65,35 @@ bool needs_instance(const Solid& solid) {
   return is_mesh || solid.motion || !(solid.upright() || std::holds_alternative<Sphere>(solid.shape));
 }
 
+double reach_of(const Solid& solid) {
+  const Bounds box = extent(solid);
+  return glm::length(glm::max(glm::abs(box.low - solid.position), glm::abs(box.high - solid.position)));
+}
+
+Bounds whole_extent(const Solid& solid) {
+  const Bounds box = extent(solid);
+  if (!solid.motion || !(box.low.x <= box.high.x)) return box;
+  const double reach = reach_of(solid);
+  Bounds all{solid.position - reach, solid.position + reach};
+  for (const glm::dvec3& p : solid.motion->points) all = join(all, {p - reach, p + reach});
+  return all;
+}
+
+double triangle_distance(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const glm::dvec3 normal = glm::cross(b - a, c - a);
+  double least = infinity;
+  bool above = true;
+  for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
+    const glm::dvec3 along = to - from, off = point - from;
+    above = above && glm::dot(glm::cross(along, off), normal) >= 0.0;
+    const double length_squared = glm::dot(along, along);
+    const double t = length_squared > 0.0 ? std::clamp(glm::dot(off, along) / length_squared, 0.0, 1.0) : 0.0;
+    least = std::min(least, glm::length(off - t * along));
+  }
+  const double size = glm::length(normal);
+  return above && size > 0.0 ? std::min(least, std::abs(glm::dot(point - a, normal)) / size) : least;
+}
+
 Bounds part_bounds(const SpherePart& part) { return {part.centre - part.radius, part.centre + part.radius}; }
 
 Bounds part_bounds(const CylinderPart& part) {
@@ -168,9 +197,10 @@ double axis_distance(std::span<const glm::dvec3> polygon, const glm::dvec2& posi
     const double t = length_squared > 0.0 ? std::clamp(-glm::dot(a, along) / length_squared, 0.0, 1.0) : 0.0;
     const glm::dvec2 nearest = a + t * along;
     least_squared = std::min(least_squared, glm::dot(nearest, nearest));
-    const double turn = a.x * b.y - a.y * b.x;
-    left = left || turn > 0.0;
-    right = right || turn < 0.0;
+    // Seen edge on, a polygon has no inside: what rounding leaves of its area must not count as one.
+    const double turn = a.x * b.y - a.y * b.x, noise = 1e-12 * std::sqrt(length_squared * std::max(glm::dot(a, a), glm::dot(b, b)));
+    left = left || turn > noise;
+    right = right || turn < -noise;
   }
   if (left != right) return 0.0;  // the axis is on the same side of all edges
   return std::sqrt(least_squared);

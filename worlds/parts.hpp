@@ -54,6 +54,13 @@ void add_parts(const Solid& solid, std::uint32_t index, const glm::dvec3& origin
 /// Whether a solid is traced as an instance.
 bool needs_instance(const Solid& solid);
 
+/// How far a solid's matter reaches from its position, and what it takes at any time; empty (low above high) for a map without matter.
+double reach_of(const Solid& solid);
+Bounds whole_extent(const Solid& solid);
+
+/// Distance of a point from a triangle.
+double triangle_distance(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+
 /// Where an instance stands.
 struct Placing {
   glm::dvec3 position{0.0};

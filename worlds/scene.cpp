@@ -42,21 +42,6 @@ bool finite(const Solid& solid) {
 
 bool traceable(const Ray& ray) { return finite(ray.origin) && std::abs(glm::length(ray.direction) - 1.0) <= 1e-6 && ray.range_max >= 0.0; }  // NaN fails
 
-/// How far a solid's matter reaches from its position.
-double reach_of(const Solid& solid) {
-  const Bounds box = extent(solid);
-  return glm::length(glm::max(glm::abs(box.low - solid.position), glm::abs(box.high - solid.position)));
-}
-
-/// What a solid takes at any time.
-Bounds whole_extent(const Solid& solid) {
-  if (!solid.motion) return extent(solid);
-  const double reach = reach_of(solid);
-  Bounds all{solid.position - reach, solid.position + reach};
-  for (const glm::dvec3& p : solid.motion->points) all = join(all, {p - reach, p + reach});
-  return all;
-}
-
 /// The mesh that a solid is traced as, or nothing.
 std::shared_ptr<const Mesh> mesh_of(const Solid& solid) {
   if (const auto* mesh = std::get_if<MeshSolid>(&solid.shape)) return mesh->mesh;
@@ -256,10 +241,7 @@ std::size_t Scene::Impl::trace(std::span<const Ray> rays, const Moving* moving, 
 
 namespace {
 
-/// Any line from a point tells what it is inside of; this one leaves most scenes soon, and lies along no wall.
-constexpr glm::dvec3 upward(0.36, 0.48, 0.8);
-
-/// Collects the closed meshes along that line.
+/// Collects the closed meshes along a line.
 class WindingCount {
  public:
   WindingCount(const std::vector<Matter>& matter, std::span<const Material> materials, const LaneRay& lane) : gatherer_{matter, depths_of(materials, infinity, true)} {
@@ -302,14 +284,14 @@ class WindingCount {
 
 }  // namespace
 
-Windings Scene::Impl::windings(const glm::dvec3& point, const Moving* moving) const {
-  LaneRay lane{point, upward, infinity, 0.0, false};
+Windings Scene::Impl::windings(const glm::dvec3& point, const Moving* moving, const glm::dvec3& along) const {
+  LaneRay lane{point, along, infinity, 0.0, false};
   float far = 0.0f;
   if (!has_volumes || !enter(lane, far)) return {};
   WindingCount count(matter, world.materials, lane);
-  const glm::dvec3 start = point + lane.shift * upward;
-  count.through(fixed.scene.get(), &instances, nullptr, start, upward, far);
-  if (moving) count.through(moving->scene.get(), &moving->instances, nullptr, start, upward, far);
+  const glm::dvec3 start = point + lane.shift * along;
+  count.through(fixed.scene.get(), &instances, nullptr, start, along, far);
+  if (moving) count.through(moving->scene.get(), &moving->instances, nullptr, start, along, far);
   return count.windings();
 }
 
@@ -339,6 +321,9 @@ Result<Scene> Scene::build(World world) {
   std::optional<Bounds> all;
   for (const Solid& solid : impl->world.solids) {
     if (!finite(solid)) return Error{fmt::format("solid '{}' has a position, angle or size that is not finite, or a scale that is not above 0", solid.name)};
+    const bool rises = solid.motion && impl->world.materials[solid.material].stops_motion &&
+                       std::ranges::any_of(solid.motion->points, [&](const glm::dvec3& p) { return p.z != solid.motion->points.front().z; });
+    if (rises) return Error{fmt::format("solid '{}' moves up or down, expected way-points of one height: it stops motion, and contact is looked for in the plane", solid.name)};
     const Bounds one = whole_extent(solid);
     if (one.low.x <= one.high.x) all = all ? join(*all, one) : one;
   }
@@ -392,7 +377,8 @@ void Scene::set_time(double time) {
   time_ = time;
   if (impl_->movers.empty() || same) return;
   const bool ours = moving_ && moving_.use_count() == 1;
-  if (!ours) moving_ = std::make_shared<Moving>();
+  if (ours) std::atomic_thread_fence(std::memory_order_acquire);  // whoever dropped the last copy has finished with it
+  else moving_ = std::make_shared<Moving>(Moving{impl_, {}, nullptr});
   moving_->instances.clear();
   for (const Mover& mover : impl_->movers) moving_->instances.push_back(impl_->stand(mover, time));
   if (ours) {
@@ -408,11 +394,27 @@ std::size_t Scene::closest_hits(std::span<const Ray> rays, Stops stops, std::spa
   Nearest nearest{impl_->matter, stops};
   glm::dvec3 from(NAN);  // where the windings are of: rays of one scan start at one place
   Windings around;
+  bool on_surface = false;
   return impl_->trace(rays, moving_.get(), nearest, [&](std::size_t ray, unsigned lane, const LaneRay& lane_ray) {
     Hit& hit = hits[ray];
     hit = Hit{};
     if (impl_->has_volumes && lane_ray.range_max >= 0.0) {
-      if (lane_ray.origin != from) around = impl_->windings(from = lane_ray.origin, moving_.get());
+      if (lane_ray.origin != from) {
+        around = impl_->windings(from = lane_ray.origin, moving_.get());
+        on_surface = impl_->on_surface(from, moving_.get());
+      }
+      if (on_surface) {
+        // What it goes into from here is told by what it goes through.
+        CrossingLists through;
+        const Ray whole{rays[ray].origin, rays[ray].direction, infinity};
+        crossings({&whole, 1}, infinity, through, true);
+        for (const Crossing& c : through.items)
+          if (impl_->matter[c.solid].stops[static_cast<std::size_t>(stops)]) {
+            if (c.enter <= lane_ray.range_max) hit = {c.enter, c.solid, c.starts_inside ? -lane_ray.direction : c.enter_normal};
+            return;
+          }
+        return;
+      }
       for (const auto& [solid, winding] : around.of)
         if (winding > 0 && impl_->matter[solid].stops[static_cast<std::size_t>(stops)]) {
           hit = {0.0, solid, -lane_ray.direction};
@@ -489,10 +491,16 @@ std::size_t Scene::crossings(std::span<const Ray> rays, std::span<const Material
   Gatherer gatherer{impl_->matter, depths_of(materials, budget_db, through_opaque)};
   glm::dvec3 from(NAN);
   Windings around;
+  bool on_surface = false;
   return impl_->trace(rays, moving_.get(), gatherer, [&](std::size_t, unsigned lane, const LaneRay& lane_ray) {
     if (impl_->has_volumes && lane_ray.range_max >= 0.0) {
       const bool to_end = lane_ray.to_end && gatherer.stop[lane] == infinity;
-      if (!to_end && lane_ray.origin != from) around = impl_->windings(from = lane_ray.origin, moving_.get());
+      if (!to_end && lane_ray.origin != from) {
+        around = impl_->windings(from = lane_ray.origin, moving_.get());
+        on_surface = impl_->on_surface(from, moving_.get());
+      }
+      // On an edge or a corner it depends on the direction what lies ahead.
+      if (!to_end && on_surface) around = impl_->windings(from, moving_.get(), lane_ray.direction);
       pair_surfaces(gatherer.surfaces[lane], to_end, [&](std::uint32_t solid) { return around.find(solid); }, std::min(lane_ray.range_max, gatherer.stop[lane]), gatherer.met[lane]);
       // What the ray starts inside of and leaves behind everything that was looked at.
       if (!to_end)

@@ -53,7 +53,7 @@ struct Search {
   }
 };
 
-void ask(RTCScene scene, const glm::dvec3& middle, double radius, RTCPointQueryFunction look, Search& search) {
+void ask(RTCScene scene, const glm::dvec3& middle, double radius, RTCPointQueryFunction look, void* user) {
   RTCPointQuery query;
   query.x = static_cast<float>(middle.x);
   query.y = static_cast<float>(middle.y);
@@ -62,7 +62,7 @@ void ask(RTCScene scene, const glm::dvec3& middle, double radius, RTCPointQueryF
   query.radius = static_cast<float>(radius);
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(scene, &query, &context, look, &search);
+  rtcPointQuery(scene, &query, &context, look, user);
 }
 
 glm::dvec3 middle_of(const Search& search) { return {search.axis, 0.5 * (search.z_low + search.z_high)}; }
@@ -81,7 +81,7 @@ bool look_in_instance(const Instance& instance, Search& search) {
   const double before = search.best;
   const std::uint32_t solid = search.solid;
   search.inside_of = &instance;
-  ask(instance.prototype->scene.get(), instance.placing.to_inner(middle_of(search)), inner_radius(search, instance), &look_in_prototype, search);
+  ask(instance.prototype->scene.get(), instance.placing.to_inner(middle_of(search)), inner_radius(search, instance), &look_in_prototype, &search);
   return search.best < before || search.solid != solid;
 }
 
@@ -93,7 +93,46 @@ bool look_in_scene(RTCPointQueryFunctionArguments* arguments) {
   return true;
 }
 
+/// Whether a point is on a closed mesh.
+struct Touch {
+  const std::vector<Instance>* instances = nullptr;
+  glm::dvec3 point;  ///< relative to the scene's origin
+  double slack;      ///< of Embree's single-precision sphere
+  const Instance* inside_of = nullptr;
+  bool found = false;
+
+  static constexpr double near = 1e-9;  // m
+
+  void look_in(const Instance& instance) {
+    if (found || !instance.prototype->closed()) return;
+    inside_of = &instance;
+    const double scale = instance.placing.scale;
+    ask(instance.prototype->scene.get(), instance.placing.to_inner(point), near / scale + 4.0 * instance.prototype->slack, &look, this);
+  }
+  static bool look(RTCPointQueryFunctionArguments* arguments) {
+    Touch& touch = *static_cast<Touch*>(arguments->userPtr);
+    if (touch.found) return false;
+    const Placing& placing = touch.inside_of->placing;
+    const auto [a, b, c] = touch.inside_of->prototype->corners(arguments->primID);
+    touch.found = triangle_distance(placing.to_inner(touch.point), a, b, c) * placing.scale <= near;
+    return false;
+  }
+  static bool look_in_scene(RTCPointQueryFunctionArguments* arguments) {
+    Touch& touch = *static_cast<Touch*>(arguments->userPtr);
+    if (arguments->geomID == instance_kind) touch.look_in((*touch.instances)[arguments->primID]);
+    return false;
+  }
+};
+
 }  // namespace
+
+bool Scene::Impl::on_surface(const glm::dvec3& point, const Moving* moving) const {
+  Touch touch{&instances, point, 4.0 * slack + single_precision_slack * glm::length(point)};
+  if (contact) ask(contact.get(), point, Touch::near + touch.slack, &Touch::look_in_scene, &touch);
+  if (moving)
+    for (const Instance& instance : moving->instances) touch.look_in(instance);
+  return touch.found;
+}
 
 Clearance Scene::clearance(const Hull& hull, const Moment& moment, double limit) const {
   Clearance answer;
@@ -108,7 +147,7 @@ Clearance Scene::clearance(const Hull& hull, const Moment& moment, double limit)
   Search search{impl_->matter, glm::dvec2(at), z_low, z_high, best, 4.0 * impl_->slack + single_precision_slack * (glm::length(at) + best)};
   search.instances = &impl_->instances;
   search.fixed = &impl_->fixed;
-  ask(impl_->contact ? impl_->contact.get() : impl_->fixed.scene.get(), middle_of(search), search.radius(), &look_in_scene, search);
+  ask(impl_->contact ? impl_->contact.get() : impl_->fixed.scene.get(), middle_of(search), search.radius(), &look_in_scene, &search);
 
   // A hull with its axis inside a closed mesh may be far from any of its triangles.
   const auto inside = [&](const Windings& windings) {

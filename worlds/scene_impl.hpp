@@ -15,6 +15,9 @@ struct Mover {
   double reach = 0.0;  ///< of its matter from its position, m
 };
 
+/// A line that leaves most scenes soon, and lies along no wall.
+inline constexpr glm::dvec3 upward(0.36, 0.48, 0.8);
+
 struct Scene::Impl {
   World world;
   std::vector<Matter> matter;  ///< of every solid
@@ -41,8 +44,10 @@ struct Scene::Impl {
   template <class Collect, class Consumer>
   std::size_t trace(std::span<const Ray> rays, const Moving* moving, Collect& collector, Consumer&& consumer) const;
 
-  /// The closed meshes that a point (relative to the origin) is inside of.
-  Windings windings(const glm::dvec3& point, const Moving* moving) const;
+  /// The closed meshes that a point (relative to the origin) is inside of, told by a line from it: any line, but where the point is on a surface.
+  Windings windings(const glm::dvec3& point, const Moving* moving, const glm::dvec3& along = upward) const;
+  /// Whether a point is within a nanometre of the surface of a closed mesh.
+  bool on_surface(const glm::dvec3& point, const Moving* moving) const;
   /// The same for one instance alone.
   Windings windings_in(const Instance& instance, const glm::dvec3& point) const;
 
@@ -57,6 +62,7 @@ struct Scene::Impl {
 
 /// The moving solids at one time.
 struct Scene::Moving {
+  std::shared_ptr<const Impl> impl;  ///< outlives the Embree scene, which reports its memory there
   std::vector<Instance> instances;
   EmbreeScene scene;
 };

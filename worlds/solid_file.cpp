@@ -95,7 +95,7 @@ class SolidReader {
   /// Keys are in range each, but a repeat, a table or a scale comes on top of them.
   bool too_far(const std::vector<Solid>& body) {
     for (const Solid& solid : body) {
-      const glm::dvec3 p = solid.position;
+      for (const glm::dvec3& p : solid.motion ? solid.motion->points : std::vector{solid.position})
       if (const double farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); farthest > largest_m) {
         faults_.add(entry_.place, fmt::format("'{}' comes to lie at [{}, {}, {}], expected at most {} m from 0 along each axis", solid.name, p.x, p.y, p.z, largest_m));
         return true;
@@ -262,6 +262,9 @@ class SolidReader {
       return;
     }
     if (const Node* position = entry_.find("position_m")) faults_.add(position->key_place, "'position_m' and [solid.motion] are both given, expected one: a moving solid is where its way-points are");
+    const bool rises = std::ranges::any_of(keys.waypoints, [&](const glm::dvec3& p) { return p.z != keys.waypoints.front().z; });
+    if (rises && !body.empty() && !world_.materials.empty() && world_.materials[body.front().material].stops_motion)
+      faults_.add(node.find("waypoints_m")->place, "'waypoints_m' go up or down, expected one z: the solid stops motion, and contact is looked for in the plane");
     auto motion = std::make_shared<Motion>();
     motion->points = keys.waypoints;
     motion->speed = keys.speed;

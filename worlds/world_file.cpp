@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <optional>
 
+#include <cmath>
+
 #include <glm/common.hpp>
 
 #include "material_file.hpp"
+#include "parts.hpp"
 #include "solid_file.hpp"
 #include "thicket/base/document.hpp"
 #include "thicket/base/pose.hpp"
@@ -52,6 +55,8 @@ class WorldReader final : public MaterialFinder {
     if (const Node* ceiling = root.find("ceiling")) read_slab(*ceiling, true, result_.ceiling, result_.ceiling_material);
     if (const Node* includes = root.find("include"))
       for (const Node& entry : entries(*includes, "include")) read_include(entry);
+    if (const Node* ceiling = root.find("ceiling"); ceiling && result_.floor && result_.ceiling->z <= result_.floor->z && faults.none())
+      faults.add(ceiling->place, fmt::format("the ceiling is at z = {} m, expected above the floor, {} m", result_.ceiling->z, result_.floor->z));
   }
 
   /// A material of the world, or a shipped one, which the world then has too.
@@ -182,6 +187,16 @@ Result<World> world_of_map(const std::filesystem::path& file, const MapOptions& 
   Solid solid;
   solid.name = "map";
   place_map(solid, std::move(*grid), options);
+  // All of the map belongs to the world, also where its border is free.
+  const MapSolid& map = std::get<MapSolid>(solid.shape);
+  const glm::dvec2 size = glm::dvec2(map.grid.width, map.grid.height) * map.grid.resolution;
+  const Pose2 frame{glm::dvec2(solid.position), solid.yaw};
+  glm::dvec2 low(INFINITY), high(-INFINITY);
+  for (const glm::dvec2& corner : {glm::dvec2(0.0), glm::dvec2(size.x, 0.0), size, glm::dvec2(0.0, size.y)}) {
+    low = glm::min(low, frame.to_outer(corner));
+    high = glm::max(high, frame.to_outer(corner));
+  }
+  world.bounds = glm::dvec4(low, high);
   world.solids.push_back(std::move(solid));
   return world;
 }
@@ -223,6 +238,9 @@ Result<ReadWorld> read_world_at(const std::filesystem::path& file, const MapOpti
   }
   if (!map.image.empty()) return Error{fmt::format("{}: a map image is given, but the world is not a map_server YAML file", file.string())};
   if (map.cell_size) return Error{fmt::format("{}: a cell size is given, but the world is not a .map file", file.string())};
+  for (const char* image : {".pgm", ".png", ".mtl", ".jpg"})
+    if (ending == image)
+      return Error{fmt::format("{}: is no world, expected the file that names it: {}", file.string(), ending == ".mtl" ? "the .obj" : "the map's .yaml (map_server), or a world (.toml)")};
   if (ending == ".obj") {
     auto world = world_of_obj(file);
     if (!world) return world.error();
@@ -249,10 +267,14 @@ Result<World> read_world(const std::filesystem::path& file, const MapOptions& ma
   World& world = read->world;
   if (read->floor || read->ceiling) {
     // What a picture or a score is about is still the world without them.
-    const auto box = extent(world);
-    if (!world.bounds) world.bounds = box ? glm::dvec4(box->low.x, box->low.y, box->high.x, box->high.y) : glm::dvec4(-1.0, -1.0, 1.0, 1.0);
-    if (read->floor) world.solids.push_back(slab_solid(*read->floor, read->floor_material, false, *world.bounds));
-    if (read->ceiling) world.solids.push_back(slab_solid(*read->ceiling, read->ceiling_material, true, *world.bounds));
+    std::optional<Bounds> box;
+    for (const Solid& solid : world.solids)
+      if (const Bounds one = whole_extent(solid); one.low.x <= one.high.x) box = box ? join(*box, one) : one;
+    const glm::dvec4 taken = box ? glm::dvec4(box->low.x, box->low.y, box->high.x, box->high.y) : glm::dvec4(-1.0, -1.0, 1.0, 1.0);
+    const glm::dvec4 slab = world.bounds.value_or(taken);
+    if (!world.bounds) world.bounds = taken + (box ? glm::dvec4(-1.0, -1.0, 1.0, 1.0) : glm::dvec4(0.0));  // as `thicket truth` has it without a floor
+    if (read->floor) world.solids.push_back(slab_solid(*read->floor, read->floor_material, false, slab));
+    if (read->ceiling) world.solids.push_back(slab_solid(*read->ceiling, read->ceiling_material, true, slab));
   }
   return std::move(world);
 }

@@ -112,9 +112,12 @@ Result<GridMap> read_cells(const fs::path& in, const ConvertArguments& a) {
   return to_map(*grid);
 }
 
-std::string world_of_map(const fs::path& yaml, const fs::path& in, double height) {
-  return fmt::format("# Written by `thicket convert`.\nname = {}\nsource = {}\n\n[material.wall]\nreflectivity = 0.5\n\n[[solid]]\ntype = \"map\"\nname = \"map\"\nmaterial = \"wall\"\nfile = {}\nheight_m = {:#}\n",
-                     toml_string(yaml.stem().string()), toml_string(in.filename().string()), toml_string(yaml.filename().string()), height);
+std::string world_of_map(const fs::path& yaml, const fs::path& in, const GridMap& map, double height) {
+  // Turned maps leave their bounds to be found.
+  const glm::dvec2 high = map.origin + glm::dvec2(map.width, map.height) * map.resolution;
+  const std::string bounds = map.origin_yaw == 0.0 ? fmt::format("bounds_m = [{:#}, {:#}, {:#}, {:#}]\n", map.origin.x, map.origin.y, high.x, high.y) : "";
+  return fmt::format("# Written by `thicket convert`.\nname = {}\nsource = {}\n{}\n[material.wall]\nreflectivity = 0.5\n\n[[solid]]\ntype = \"map\"\nname = \"map\"\nmaterial = \"wall\"\nfile = {}\nheight_m = {:#}\n",
+                     toml_string(yaml.stem().string()), toml_string(in.filename().string()), bounds, toml_string(yaml.filename().string()), height);
 }
 
 /// A world of an OBJ file, which stays where it is, with every MTL material to be given one of Thicket's.
@@ -234,7 +237,7 @@ int convert_map(const ConvertArguments& a) {
   } else {
     if (const auto written = write_map_file(stem, *map); !written) return complain(written.error());
     if (ending == ".toml")
-      if (const auto written = write_file(out, world_of_map(yaml, in, a.height)); !written) return complain(written.error());
+      if (const auto written = write_file(out, world_of_map(yaml, in, *map, a.height)); !written) return complain(written.error());
   }
   fmt::print("cells      {} x {} of {} m\n{}", map->width, map->height, map->resolution, note);
   for (const fs::path& one : outputs) fmt::print("written    {}\n", one.string());

@@ -84,6 +84,14 @@ Result<std::vector<Material>> materials_of(const std::string& world_name) {
 }  // namespace
 
 int list_materials(const MaterialsArguments& arguments) {
+  if (!(arguments.frequency_ghz >= 0.3 && arguments.frequency_ghz <= 300.0)) {
+    fmt::print(stderr, "--frequency-ghz is {}, expected 0.3 to 300\n", arguments.frequency_ghz);
+    return bad_input;
+  }
+  if (arguments.thickness_m && !(*arguments.thickness_m > 0.0 && *arguments.thickness_m <= 1e3)) {
+    fmt::print(stderr, "--thickness-m is {}, expected metres, above 0 and at most 1000\n", *arguments.thickness_m);
+    return bad_input;
+  }
   const auto materials = materials_of(arguments.world);
   if (!materials) return complain(materials.error());
   std::vector<Row> rows = {heads(arguments)};

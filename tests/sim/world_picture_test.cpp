@@ -135,7 +135,7 @@ TEST_CASE("a picture without a camera holds the whole world, and leaves out the 
 TEST_CASE("a picture shows moving solids where they are at the scene's time") {
   World world = world_of("black_paint", Box{{2.0, 2.0, 2.0}});
   Motion motion;
-  motion.points = {{0.0, 0.0, 0.0}, {0.0, 0.0, 50.0}};
+  motion.points = {{0.0, 0.0, 0.0}, {70.0, 70.0, 0.0}};
   world.solids[0].motion = std::make_shared<const Motion>(motion);
   Scene scene = scene_of(std::move(world));
   const TemporaryFolder folder;

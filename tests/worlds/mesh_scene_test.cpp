@@ -437,7 +437,8 @@ TEST_CASE("moving solids are, at every time, where they are") {
   w.add(Box{{40.0, 0.2, 3.0}}, {0.0, 9.0, 0.0});
   const auto motion = [&](Motion::Mode mode, double spin) {
     Motion m;
-    for (int i = 0; i < 4; ++i) m.points.push_back(dice.point(glm::dvec3(-8.0, -8.0, 0.0), glm::dvec3(8.0, 8.0, 1.0)));
+    const double z = dice.between(0.0, 1.0);
+    for (int i = 0; i < 4; ++i) m.points.emplace_back(dice.point(glm::dvec2(-8.0), glm::dvec2(8.0)), z);
     m.speed = dice.between(0.5, 3.0);
     m.start_s = dice.between(0.0, 2.0);
     m.spin = spin;
@@ -532,4 +533,89 @@ TEST_CASE("a solid that comes at a hull touches it, between steps too") {
   const double contact = scene.first_contact(hull, [&](double s) { return Moment{glm::dvec3(0.0), step * s / length}; }, length, infinity, nearest, least);
   CHECK(contact == doctest::Approx(10.0 - 0.8).epsilon(1e-6));
   CHECK(nearest.solid == 0);
+}
+
+TEST_CASE("a hull in line with an upright sheet or side is as far from it as its edge") {
+  const Hull hull{0.05, 0.0, 0.3};
+  Dice dice(38);
+  for (int i = 0; i < 500; ++i) {
+    const double angle = dice.between(-pi, pi), near = dice.between(0.5, 2.0), far = near + dice.between(0.1, 2.0);
+    const glm::dvec3 along(std::cos(angle), std::sin(angle), 0.0), up(0.0, 0.0, 2.5);
+    Soup soup;
+    soup.vertices = {near * along - 0.1 * up, far * along - 0.1 * up, far * along + up, near * along + up};
+    soup.triangles = {{0, 1, 2}, {0, 2, 3}};
+    HandMadeWorld w;
+    w.add(MeshSolid{soup.mesh()}, glm::dvec3(0.0));
+    CHECK(traced(w).clearance(hull, glm::dvec3(0.0), 10.0).distance == doctest::Approx(near - hull.radius));
+  }
+}
+
+TEST_CASE("rays from an edge, a corner or a re-entrant edge of a mesh go into matter or do not, whatever limits them") {
+  // A cube, and an L: a prism with a re-entrant edge at x = y = 1.
+  const auto l_shape = prism_mesh({{0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {1.0, 1.0}, {1.0, 2.0}, {0.0, 2.0}}, {}, 1.0);
+  const auto in_l = [](const glm::dvec3& p) { return p.z > 0.0 && p.z < 1.0 && p.x > 0.0 && p.y > 0.0 && p.x < 2.0 && p.y < 2.0 && (p.x < 1.0 || p.y < 1.0); };
+  HandMadeWorld w;
+  w.add(MeshSolid{l_shape}, glm::dvec3(0.0));
+  const Scene scene = traced(w);
+  Dice dice(39);
+  std::size_t inward = 0, outward = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const glm::dvec3 from = i % 4 == 0 ? glm::dvec3(1.0, 1.0, dice.between(0.1, 0.9)) : i % 4 == 1 ? glm::dvec3(0.0, 0.0, dice.between(0.1, 0.9)) : i % 4 == 2 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 1.0, 1.0);
+    const glm::dvec3 along = dice.direction();
+    if (std::min({std::abs(along.x), std::abs(along.y), std::abs(along.z)}) < 0.01) continue;
+    const bool goes_in = in_l(from + 1e-6 * along);
+    for (const double range_max : {infinity, 9.0, 0.5}) {
+      const Ray ray{from, along, range_max};
+      const auto found = all_of(scene, ray, 100.0);  // opaque: what lies behind the first entrance may be missing
+      Hit hit;
+      scene.closest_hits({&ray, 1}, Stops::everything, {&hit, 1});
+      if (goes_in) {
+        ++inward;
+        REQUIRE(!found.empty());
+        CHECK(found[0].enter == doctest::Approx(0.0));
+        CHECK(hit.range == doctest::Approx(0.0));
+      } else {
+        ++outward;
+        for (const Crossing& c : found) CHECK(c.enter > 1e-3);
+        CHECK(hit.range > 1e-3);
+        CHECK((hit.solid == no_solid) == found.empty());
+      }
+    }
+  }
+  CHECK(inward > 2000);
+  CHECK(outward > 2000);
+}
+
+TEST_CASE("a scene with moving solids can be assigned over another") {
+  const auto build = [](double x) {
+    HandMadeWorld w;
+    w.add(Box{{1.0, 1.0, 1.0}}, {x, 0.0, 0.0});
+    Motion m;
+    m.points = {{x, 0.0, 0.0}, {x + 5.0, 0.0, 0.0}};
+    w.world.solids[0].motion = std::make_shared<const Motion>(m);
+    return traced(w);
+  };
+  Scene scene = build(3.0);
+  scene.set_time(1.0);
+  scene = build(10.0);
+  CHECK(all_of(scene, {{0.0, 0.1, 0.1}, {1.0, 0.0, 0.0}}).at(0).enter == doctest::Approx(9.5));
+}
+
+TEST_CASE("what cannot move is told, what has no matter may") {
+  HandMadeWorld w;
+  w.add(Box{{1.0, 1.0, 0.1}}, {0.0, 0.0, 3.0});
+  Motion m;
+  m.points = {{0.0, 0.0, 3.0}, {0.0, 0.0, 0.0}};
+  w.world.solids[0].motion = std::make_shared<const Motion>(m);
+  const auto falls = Scene::build(w.world);
+  REQUIRE_FALSE(falls);
+  CHECK(falls.error().message.find("moves up or down") != std::string::npos);
+  w.world.materials[0].stops_motion = false;  // smoke may rise
+  CHECK(static_cast<bool>(Scene::build(w.world)));
+
+  HandMadeWorld empty;
+  empty.add(map_of({"..", ".."}, 1.0), glm::dvec3(0.0));
+  m.points = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
+  empty.world.solids[0].motion = std::make_shared<const Motion>(m);
+  CHECK(static_cast<bool>(Scene::build(empty.world)));
 }

@@ -259,7 +259,7 @@ TEST_CASE("the floor of an include counts where this file has none") {
 
 TEST_CASE("a floor and a ceiling go beyond the bounds or beyond all solids") {
   const std::string slabs = "[floor]\nmaterial = \"concrete\"\nz_m = -0.25\n[ceiling]\nmaterial = \"concrete\"\nz_m = 4\nthickness_m = 0.2\nmargin_m = 1\n";
-  const auto check = [](const World& world, const glm::dvec4& around) {
+  const auto check = [](const World& world, const glm::dvec4& around, double margin) {
     const Solid *floor = named(world, "floor"), *ceiling = named(world, "ceiling");
     REQUIRE(floor);
     REQUIRE(ceiling);
@@ -268,11 +268,12 @@ TEST_CASE("a floor and a ceiling go beyond the bounds or beyond all solids") {
     check_near(extent(*ceiling).low, {around.x - 1, around.y - 1, 4});
     check_near(extent(*ceiling).high, {around.z + 1, around.w + 1, 4.2});
     REQUIRE(world.bounds.has_value());
-    CHECK(*world.bounds == around);  // pictures and scores are about what they were about
+    // Pictures, scores and maps are about what they were about.
+    CHECK(*world.bounds == around + glm::dvec4(-margin, -margin, margin, margin));
   };
-  check(world_of(slabs + brick_box + "position_m = [3, 0, 1]\n"), {2, -0.5, 4, 0.5});
-  check(world_of("bounds_m = [-7, -8, 9, 10]\n" + slabs + brick_box), {-7, -8, 9, 10});
-  check(world_of(slabs), {-1, -1, 1, 1});
+  check(world_of(slabs + brick_box + "position_m = [3, 0, 1]\n"), {2, -0.5, 4, 0.5}, 1.0);
+  check(world_of("bounds_m = [-7, -8, 9, 10]\n" + slabs + brick_box), {-7, -8, 9, 10}, 0.0);
+  check(world_of(slabs), {-1, -1, 1, 1}, 0.0);
 }
 
 TEST_CASE("a mesh takes the materials that are given, those of its names, and its own for the rest") {
