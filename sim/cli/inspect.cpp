@@ -67,9 +67,15 @@ bool is_mission(const std::filesystem::path& file) {
   return document && (document->find("world") || document->find("planner") || document->find("sensor"));
 }
 
+std::string missing_input(const std::string& name) {
+  std::error_code none;
+  if (std::filesystem::is_directory(name, none)) return fmt::format("'{}' is a folder, expected a file in it", name);
+  return fmt::format("there is no file '{}'; shipped ones are listed by `thicket worlds`", name);
+}
+
 int check_file(const CheckArguments& arguments) {
   const auto file = find_input(arguments.file);
-  if (file.empty()) return complain({fmt::format("there is no file '{}'; shipped ones are listed by `thicket worlds`", arguments.file)});
+  if (file.empty()) return complain({missing_input(arguments.file)});
   return is_mission(file) ? check_mission(file, arguments.overrides) : check_world(file, arguments);
 }
 

@@ -167,7 +167,7 @@ int write_truth(const TruthArguments& a) {
   if (!std::isfinite(a.time)) return complain({fmt::format("--time is {}, expected a finite number", a.time)});
 
   const auto file = find_input(a.world);
-  if (file.empty()) return complain({fmt::format("there is no file '{}'; shipped ones are listed by `thicket worlds`", a.world)});
+  if (file.empty()) return complain({missing_input(a.world)});
   const fs::path stem = ending == ".yaml" || ending == ".yml" ? stem_of(out) : out;
   const fs::path map_yaml = fs::path(stem) += ".yaml", map_image = fs::path(stem) += ".pgm";
   if (const auto fault = overwrites(picture ? std::vector{out} : std::vector{map_yaml, map_image}, file, a.map_image)) return complain(*fault);
@@ -214,7 +214,7 @@ int convert_map(const ConvertArguments& a) {
     return complain({fmt::format("'{}': cannot tell the format to write, expected a name ending in .yaml (map_server), .map (MovingAI) or .toml (world)", a.out)});
   if (!(a.height > 0.0) || !std::isfinite(a.height)) return complain({fmt::format("--height is {}, expected metres, a finite number greater than 0", a.height)});
   const auto in = find_input(a.in);
-  if (in.empty()) return complain({fmt::format("there is no file '{}'; shipped ones are listed by `thicket worlds`", a.in)});
+  if (in.empty()) return complain({missing_input(a.in)});
   if (in.extension() == ".obj" && ending == ".toml") {
     if (const auto fault = overwrites({out}, in, a.map_image)) return complain(*fault);
     const auto text = world_of_obj(in, out);

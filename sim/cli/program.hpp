@@ -47,6 +47,8 @@ struct CheckArguments {
   std::string sensor = "usarsim2012";  ///< preset that a world's matter is held against
 };
 int check_file(const CheckArguments& arguments);
+/// Why `find_input` found nothing of that name.
+std::string missing_input(const std::string& name);
 /// A TOML file that names a world, a planner or a sensor is a mission.
 bool is_mission(const std::filesystem::path& file);
 /// A world as a map or a picture, and whether there is a way: 0 if there is, 3 if not.
