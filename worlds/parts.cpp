@@ -79,6 +79,17 @@ Bounds whole_extent(const Solid& solid) {
   return all;
 }
 
+std::optional<Bounds> whole_extent(const World& world) {
+  std::optional<Bounds> all;
+  for (const Solid& solid : world.solids)
+    if (const Bounds one = whole_extent(solid); one.low.x <= one.high.x) all = all ? join(*all, one) : one;
+  return all;
+}
+
+bool changes_height(const Motion& motion) {
+  return std::ranges::any_of(motion.points, [&](const glm::dvec3& p) { return p.z != motion.points.front().z; });
+}
+
 double triangle_distance(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 normal = glm::cross(b - a, c - a);
   double least = infinity;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -57,6 +58,9 @@ bool needs_instance(const Solid& solid);
 /// How far a solid's matter reaches from its position, and what it takes at any time; empty (low above high) for a map without matter.
 double reach_of(const Solid& solid);
 Bounds whole_extent(const Solid& solid);
+/// Of all solids; nothing where there is no matter.
+std::optional<Bounds> whole_extent(const World& world);
+bool changes_height(const Motion& motion);
 
 /// Distance of a point from a triangle.
 double triangle_distance(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);

@@ -1,25 +1,20 @@
-// Building a scene, and its answers to rays.
+// Building a scene, and where its solids are at a time.
 #include "thicket/worlds/scene.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <map>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 
-#include "part_rays.hpp"
 #include "scene_impl.hpp"
 
 namespace thicket {
 namespace {
-
-bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Whether the numbers of a shape are finite.
 struct FiniteShape {
@@ -35,12 +30,20 @@ struct FiniteShape {
   bool operator()(const MeshSolid& m) const { return m.mesh && m.scale > 0.0 && std::isfinite(m.scale) && std::isfinite(m.sheet_thickness) && finite(m.mesh->low) && finite(m.mesh->high); }
 };
 
-bool finite(const Solid& solid) {
+bool all_finite(const Solid& solid) {
   const bool still = !solid.motion || (std::isfinite(solid.motion->speed) && std::isfinite(solid.motion->spin) && std::ranges::all_of(solid.motion->points, [](const glm::dvec3& p) { return finite(p); }));
   return finite(solid.position) && finite({solid.yaw, solid.pitch, solid.roll}) && still && std::visit(FiniteShape{}, solid.shape);
 }
 
-bool traceable(const Ray& ray) { return finite(ray.origin) && std::abs(glm::length(ray.direction) - 1.0) <= 1e-6 && ray.range_max >= 0.0; }  // NaN fails
+/// Where a solid of a mesh, tilted or moving, stands; `centre` is its prototype's.
+Placing placing_of(const Solid& solid, const Standing& standing, const glm::dvec3& centre, const glm::dvec3& origin) {
+  Placing placing;
+  placing.turn = rotation_of(standing.yaw, solid.pitch, solid.roll);
+  placing.upright = solid.upright();
+  if (const auto* mesh = std::get_if<MeshSolid>(&solid.shape)) placing.scale = mesh->scale;
+  placing.position = (standing.position - origin) + placing.turn * (placing.scale * centre);
+  return placing;
+}
 
 /// The mesh that a solid is traced as, or nothing.
 std::shared_ptr<const Mesh> mesh_of(const Solid& solid) {
@@ -69,8 +72,7 @@ class SceneBuilder {
     if (impl_.instances.empty()) return;
     impl_.contact = new_scene(impl_.device.get());
     attach(impl_.fixed, impl_.device.get(), impl_.contact.get());
-    attach_boxes(impl_.instances, impl_.slack, impl_.device.get(), impl_.contact.get());
-    rtcCommitScene(impl_.contact.get());
+    commit_with_boxes(impl_.instances, impl_.slack, impl_.device.get(), impl_.contact.get());
   }
 
  private:
@@ -82,11 +84,10 @@ class SceneBuilder {
     const double thickness = sheet ? sheet->sheet_thickness : 0.0;
     impl_.has_volumes = impl_.has_volumes || prototype->closed();
     if (solid.motion) {
-      const double reach = reach_of(solid);
-      impl_.movers.push_back({prototype, index, thickness, reach});
-      impl_.fastest = std::max(impl_.fastest, (solid.motion->points.size() > 1 ? solid.motion->speed : 0.0) + std::abs(solid.motion->spin) * reach);
+      impl_.movers.push_back({prototype, index, thickness});
+      impl_.fastest = std::max(impl_.fastest, (solid.motion->points.size() > 1 ? solid.motion->speed : 0.0) + std::abs(solid.motion->spin) * reach_of(solid));
     } else {
-      impl_.instances.push_back({prototype, index, thickness, placing_of(solid, prototype->centre, impl_.origin)});
+      impl_.instances.push_back({prototype, index, thickness, placing_of(solid, {solid.position, solid.yaw}, prototype->centre, impl_.origin)});
     }
   }
 
@@ -129,205 +130,21 @@ class SceneBuilder {
 
 }  // namespace
 
-Placing placing_of(const Solid& solid, const glm::dvec3& centre, const glm::dvec3& origin) {
-  Placing placing;
-  placing.turn = rotation_of(solid);
-  placing.upright = solid.upright();
-  if (const auto* mesh = std::get_if<MeshSolid>(&solid.shape)) placing.scale = mesh->scale;
-  placing.position = (solid.position - origin) + placing.turn * (placing.scale * centre);
-  return placing;
-}
-
-glm::dvec3 Scene::Impl::normal(const LaneRay& lane, const PartCrossing& c, double range, std::uint32_t part, int face) const {
-  const glm::dvec3 point = lane.origin + range * lane.direction;
-  if (!c.instance) return fixed.with_part(c.kind, part, [&](const auto& p) { return part_normal(p, point, face); });
-  const Prototype& prototype = *c.instance->prototype;
-  const Placing& placing = c.instance->placing;
-  if (c.kind == triangle_kind) {
-    const auto [a, b, d] = prototype.corners(part);
-    const glm::dvec3 outward = placing.turn * glm::normalize(glm::cross(b - a, d - a));
-    // A sheet has no outside: its normals are against the ray where it is entered, and along it where it is left.
-    if (prototype.closed()) return outward;
-    const bool along = glm::dot(outward, lane.direction) > 0.0, leaves = range > c.interval.enter;
-    return along == leaves ? outward : -outward;
-  }
-  return placing.turn * prototype.with_part(c.kind, part, [&](const auto& p) { return part_normal(p, placing.to_inner(point), face); });
-}
-
-bool Scene::Impl::enter(LaneRay& lane, float& far) const {
-  if (glm::all(glm::lessThanEqual(box.low, lane.origin)) && glm::all(glm::lessThanEqual(lane.origin, box.high))) {
-    // Most rays start inside, and there is nothing behind the diagonal.
-    lane.to_end = lane.range_max >= diagonal;
-    far = static_cast<float>(std::min(lane.range_max, diagonal) * (1.0 + single_precision_slack) + slack);
-    return true;
-  }
-  double near = 0.0, end = infinity;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double o = lane.origin[axis], d = lane.direction[axis];
-    if (d == 0.0) {
-      if (o < box.low[axis] || o > box.high[axis]) return false;
-      continue;
-    }
-    const double a = (box.low[axis] - o) / d, b = (box.high[axis] - o) / d;
-    near = std::max(near, std::min(a, b));
-    end = std::min(end, std::max(a, b));
-  }
-  lane.to_end = end <= lane.range_max;
-  end = std::min(end, lane.range_max);
-  if (!(near <= end)) return false;
-  lane.shift = near;
-  far = static_cast<float>((end - near) * (1.0 + single_precision_slack) + slack);
-  return true;
-}
-
-template <class Collect, class Consumer>
-std::size_t Scene::Impl::trace(std::span<const Ray> rays, const Moving* moving, Collect& collector, Consumer&& consumer) const {
-  std::size_t rejected = 0;
-  std::array<LaneRay, packet> lanes;
-  Query query;
-  embree::start(query);
-  query.lanes = lanes.data();
-  query.collect_in(collector);
-  for (std::size_t first = 0; first < rays.size(); first += packet) {
-    alignas(32) int valid[packet];
-    alignas(32) RTCRayHit8 batch;
-    bool any = false;
-    for (unsigned i = 0; i < packet; ++i) {
-      // Lanes without a ray get one that ends before it starts: Embree ignores `valid` where a packet is wider than the processor's vectors.
-      lanes[i] = LaneRay{};
-      float far = -1.0f;
-      valid[i] = 0;
-      if (first + i < rays.size()) {
-        const Ray& ray = rays[first + i];
-        if (!traceable(ray)) {
-          ++rejected;
-        } else {
-          lanes[i] = {ray.origin - origin, ray.direction, ray.range_max, 0.0, false};
-          if (!empty() && enter(lanes[i], far)) valid[i] = -1;
-          any = any || valid[i];
-        }
-      }
-      const glm::vec3 start(valid[i] ? lanes[i].origin + lanes[i].shift * lanes[i].direction : glm::dvec3(0.0));
-      const glm::vec3 along(lanes[i].direction);
-      batch.ray.org_x[i] = start.x;
-      batch.ray.org_y[i] = start.y;
-      batch.ray.org_z[i] = start.z;
-      batch.ray.dir_x[i] = along.x;
-      batch.ray.dir_y[i] = along.y;
-      batch.ray.dir_z[i] = along.z;
-      batch.ray.tnear[i] = 0.0f;
-      batch.ray.tfar[i] = valid[i] ? far : -1.0f;
-      batch.ray.time[i] = 0.0f;
-      batch.ray.mask[i] = ~0u;
-      batch.ray.id[i] = i;
-      batch.ray.flags[i] = 0;
-      batch.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-      batch.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-    }
-    collector.reset();
-    query.kept_for = nullptr;  // the rays are others
-    if (any) {
-      query.instances = &instances;
-      embree::intersect8(valid, fixed.scene.get(), query, batch);
-      if (moving) {
-        query.instances = &moving->instances;
-        embree::intersect8(valid, moving->scene.get(), query, batch);  // with the rays as far as they are still wanted
-      }
-    }
-    for (unsigned i = 0; i < packet && first + i < rays.size(); ++i) consumer(first + i, i, lanes[i]);
-  }
-  return rejected;
-}
-
-namespace {
-
-/// Collects the closed meshes along a line.
-class WindingCount {
- public:
-  WindingCount(const std::vector<Matter>& matter, std::span<const Material> materials, const LaneRay& lane) : gatherer_{matter, depths_of(materials, infinity, true)} {
-    lanes_[0] = lane;
-    gatherer_.reset();
-    embree::start(query_);
-    query_.lanes = lanes_.data();
-    query_.surfaces_only = true;
-    query_.collect_in(gatherer_);
-  }
-
-  void through(RTCScene scene, const std::vector<Instance>* instances, const Instance* inside_of, const glm::dvec3& origin, const glm::dvec3& direction, float far) {
-    query_.instances = instances;
-    query_.inside_of = inside_of;
-    RTCRayHit ray{};
-    const glm::vec3 start(origin), along(direction);
-    ray.ray = {start.x, start.y, start.z, 0.0f, along.x, along.y, along.z, 0.0f, far, ~0u, 0, 0};
-    ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    embree::intersect1(scene, query_, ray);
-  }
-
-  Windings windings() {
-    std::vector<SurfaceHit>& hits = gatherer_.surfaces[0];
-    std::sort(hits.begin(), hits.end(), BySolidAndRange{});
-    Windings answer;
-    for (std::size_t i = 0; i < hits.size();) {
-      const std::uint32_t solid = hits[i].solid;
-      int winding = 0;
-      for (; i < hits.size() && hits[i].solid == solid; ++i) winding += hits[i].enters ? -1 : 1;
-      if (winding != 0) answer.of.emplace_back(solid, winding);
-    }
-    return answer;
-  }
-
- private:
-  Gatherer gatherer_;
-  std::array<LaneRay, packet> lanes_;
-  Query query_;
-};
-
-}  // namespace
-
-Windings Scene::Impl::windings(const glm::dvec3& point, const Moving* moving, const glm::dvec3& along) const {
-  LaneRay lane{point, along, infinity, 0.0, false};
-  float far = 0.0f;
-  if (!has_volumes || !enter(lane, far)) return {};
-  WindingCount count(matter, world.materials, lane);
-  const glm::dvec3 start = point + lane.shift * along;
-  count.through(fixed.scene.get(), &instances, nullptr, start, along, far);
-  if (moving) count.through(moving->scene.get(), &moving->instances, nullptr, start, along, far);
-  return count.windings();
-}
-
-Windings Scene::Impl::windings_in(const Instance& instance, const glm::dvec3& point) const {
-  WindingCount count(matter, world.materials, {point, upward, infinity, 0.0, false});
-  const Placing& p = instance.placing;
-  count.through(instance.prototype->scene.get(), nullptr, &instance, p.to_inner(point), p.direction_to_inner(upward), std::numeric_limits<float>::max());
-  return count.windings();
-}
-
 Instance Scene::Impl::stand(const Mover& mover, double time) const {
   const Solid& solid = world.solids[mover.solid];
-  const Standing there = standing_at(solid, time);
-  Instance instance{mover.prototype, mover.solid, mover.sheet_thickness, {}};
-  // As placing_of, without a copy of the solid.
-  instance.placing.turn = rotation_of(there.yaw, solid.pitch, solid.roll);
-  instance.placing.upright = solid.upright();
-  if (const auto* mesh = std::get_if<MeshSolid>(&solid.shape)) instance.placing.scale = mesh->scale;
-  instance.placing.position = (there.position - origin) + instance.placing.turn * (instance.placing.scale * mover.prototype->centre);
-  return instance;
+  return {mover.prototype, mover.solid, mover.sheet_thickness, placing_of(solid, standing_at(solid, time), mover.prototype->centre, origin)};
 }
 
 Result<Scene> Scene::build(World world) {
   const auto start = std::chrono::steady_clock::now();
   auto impl = std::make_shared<Impl>();
   impl->world = std::move(world);
-  std::optional<Bounds> all;
   for (const Solid& solid : impl->world.solids) {
-    if (!finite(solid)) return Error{fmt::format("solid '{}' has a position, angle or size that is not finite, or a scale that is not above 0", solid.name)};
-    const bool rises = solid.motion && impl->world.materials[solid.material].stops_motion &&
-                       std::ranges::any_of(solid.motion->points, [&](const glm::dvec3& p) { return p.z != solid.motion->points.front().z; });
-    if (rises) return Error{fmt::format("solid '{}' moves up or down, expected way-points of one height: it stops motion, and contact is looked for in the plane", solid.name)};
-    const Bounds one = whole_extent(solid);
-    if (one.low.x <= one.high.x) all = all ? join(*all, one) : one;
+    if (!all_finite(solid)) return Error{fmt::format("solid '{}' has a position, angle or size that is not finite, or a scale that is not above 0", solid.name)};
+    if (solid.motion && impl->world.materials[solid.material].stops_motion && changes_height(*solid.motion))
+      return Error{fmt::format("solid '{}' moves up or down, expected way-points of one height: it stops motion, and contact is looked for in the plane", solid.name)};
   }
-  if (all) {
+  if (const auto all = whole_extent(impl->world)) {
     impl->origin = 0.5 * (all->low + all->high);
     const glm::dvec3 half = 0.5 * (all->high - all->low);
     if (!finite(impl->origin) || !finite(half)) return Error{"the world's extent is not finite"};
@@ -388,159 +205,6 @@ void Scene::set_time(double time) {
     attach(moving_->instances, impl_->device.get(), moving_->scene.get());
   }
   rtcCommitScene(moving_->scene.get());
-}
-
-std::size_t Scene::closest_hits(std::span<const Ray> rays, Stops stops, std::span<Hit> hits) const {
-  Nearest nearest{impl_->matter, stops};
-  glm::dvec3 from(NAN);  // where the windings are of: rays of one scan start at one place
-  Windings around;
-  bool on_surface = false;
-  return impl_->trace(rays, moving_.get(), nearest, [&](std::size_t ray, unsigned lane, const LaneRay& lane_ray) {
-    Hit& hit = hits[ray];
-    hit = Hit{};
-    if (impl_->has_volumes && lane_ray.range_max >= 0.0) {
-      if (lane_ray.origin != from) {
-        around = impl_->windings(from = lane_ray.origin, moving_.get());
-        on_surface = impl_->on_surface(from, moving_.get());
-      }
-      if (on_surface) {
-        // What it goes into from here is told by what it goes through.
-        CrossingLists through;
-        const Ray whole{rays[ray].origin, rays[ray].direction, infinity};
-        crossings({&whole, 1}, infinity, through, true);
-        for (const Crossing& c : through.items)
-          if (impl_->matter[c.solid].stops[static_cast<std::size_t>(stops)]) {
-            if (c.enter <= lane_ray.range_max) hit = {c.enter, c.solid, c.starts_inside ? -lane_ray.direction : c.enter_normal};
-            return;
-          }
-        return;
-      }
-      for (const auto& [solid, winding] : around.of)
-        if (winding > 0 && impl_->matter[solid].stops[static_cast<std::size_t>(stops)]) {
-          hit = {0.0, solid, -lane_ray.direction};
-          return;
-        }
-    }
-    if (nearest.range[lane] == infinity || nearest.range[lane] > lane_ray.range_max) return;
-    const PartCrossing& met = nearest.best[lane];
-    hit.range = nearest.range[lane];
-    hit.solid = met.solid;
-    hit.normal = met.interval.enter > 0.0 || met.kind == triangle_kind ? impl_->normal(lane_ray, met, hit.range, met.part, met.interval.enter_face) : -lane_ray.direction;
-  });
-}
-
-namespace {
-
-constexpr double touching = 1e-9;  // m
-
-/// Makes stretches of the surfaces of closed meshes, and appends them; what is left behind the limit is left at infinity. `to_end`: no surface on the ray is missing.
-template <class WindingAtStart>
-void pair_surfaces(std::vector<SurfaceHit>& hits, bool to_end, WindingAtStart&& winding_at_start, double limit, std::vector<PartCrossing>& out) {
-  std::sort(hits.begin(), hits.end(), BySolidAndRange{});
-  for (std::size_t i = 0; i < hits.size();) {
-    const std::uint32_t solid = hits[i].solid;
-    std::size_t end = i;
-    int sum = 0;
-    for (; end < hits.size() && hits[end].solid == solid; ++end) sum += hits[end].enters ? 1 : -1;
-    // A closed mesh is left as often as it is entered, so what is left too often was started inside of.
-    int winding = to_end ? -sum : winding_at_start(solid);
-    PartCrossing open;
-    const auto begin = [&](double range, const SurfaceHit& at) {
-      open = {{range, infinity, 0, 0}, solid, triangle_kind, at.triangle, at.triangle, at.instance};
-    };
-    if (winding > 0) begin(-infinity, hits[i]);
-    const std::size_t first_out = out.size();
-    const auto close = [&](const PartCrossing& stretch) {
-      // Pieces of one mesh that touch have no gap between them but for rounding.
-      const bool goes_on = out.size() > first_out && stretch.interval.enter - out.back().interval.leave <= touching;
-      if (!goes_on) return out.push_back(stretch);
-      out.back().interval.leave = stretch.interval.leave;
-      out.back().leave_part = stretch.leave_part;
-    };
-    int owed = 0;  // exits that came before their entrances by rounding
-    for (; i < end; ++i) {
-      const SurfaceHit& hit = hits[i];
-      if (hit.enters) {
-        if (owed > 0 && winding == 0) {
-          --owed;
-        } else if (++winding == 1) {
-          begin(hit.range, hit);
-        }
-      } else if (winding == 0) {
-        ++owed;
-      } else if (--winding == 0) {
-        // Behind the limit it is chance which surfaces were met.
-        open.interval.leave = hit.range <= limit ? hit.range : infinity;
-        open.leave_part = hit.triangle;
-        if (open.interval.leave > std::max(0.0, open.interval.enter) && open.interval.enter <= limit) close(open);
-      }
-    }
-    if (winding > 0 && open.interval.enter <= limit) close(open);  // it is left somewhere behind what was looked at
-  }
-}
-
-}  // namespace
-
-std::size_t Scene::crossings(std::span<const Ray> rays, double budget_db, CrossingLists& lists, bool through_opaque) const {
-  return crossings(rays, impl_->world.materials, budget_db, lists, through_opaque);
-}
-
-std::size_t Scene::crossings(std::span<const Ray> rays, std::span<const Material> materials, double budget_db, CrossingLists& lists, bool through_opaque) const {
-  lists.items.clear();
-  lists.first.assign(1, 0);
-  Gatherer gatherer{impl_->matter, depths_of(materials, budget_db, through_opaque)};
-  glm::dvec3 from(NAN);
-  Windings around;
-  bool on_surface = false;
-  return impl_->trace(rays, moving_.get(), gatherer, [&](std::size_t, unsigned lane, const LaneRay& lane_ray) {
-    if (impl_->has_volumes && lane_ray.range_max >= 0.0) {
-      const bool to_end = lane_ray.to_end && gatherer.stop[lane] == infinity;
-      if (!to_end && lane_ray.origin != from) {
-        around = impl_->windings(from = lane_ray.origin, moving_.get());
-        on_surface = impl_->on_surface(from, moving_.get());
-      }
-      // On an edge or a corner it depends on the direction what lies ahead.
-      if (!to_end && on_surface) around = impl_->windings(from, moving_.get(), lane_ray.direction);
-      pair_surfaces(gatherer.surfaces[lane], to_end, [&](std::uint32_t solid) { return around.find(solid); }, std::min(lane_ray.range_max, gatherer.stop[lane]), gatherer.met[lane]);
-      // What the ray starts inside of and leaves behind everything that was looked at.
-      if (!to_end)
-        for (const auto& [solid, winding] : around.of)
-          if (winding > 0 && std::ranges::none_of(gatherer.surfaces[lane], [s = solid](const SurfaceHit& hit) { return hit.solid == s; }))
-            gatherer.met[lane].push_back({{-infinity, infinity, 0, 0}, solid, triangle_kind, 0, 0, nullptr});
-    }
-    impl_->join_parts(lane_ray, gatherer.met[lane], gatherer.stop[lane], lists.items);
-    lists.first.push_back(static_cast<std::uint32_t>(lists.items.size()));
-  });
-}
-
-void Scene::Impl::join_parts(const LaneRay& lane, std::vector<PartCrossing>& met, double stop, std::vector<Crossing>& out) const {
-  // What starts behind the stop may or may not have been met, by the order of the traversal: it is left out, so that the list is the same for any order.
-  if (stop < infinity) std::erase_if(met, [stop](const PartCrossing& c) { return c.interval.enter > stop; });
-  // Where no solid was met twice, as is usual, every part is a crossing and the parts can be sorted as the crossings will be.
-  const bool one_part_each = solids_differ(met);
-  if (one_part_each) std::sort(met.begin(), met.end(), ByRange{});
-  else std::sort(met.begin(), met.end(), BySolid{});
-  const std::size_t begin = out.size();
-  for (std::size_t i = 0; i < met.size();) {
-    const PartCrossing& first = met[i];
-    const PartCrossing* last = &met[i];  // the part that is left last
-    for (++i; i < met.size() && met[i].solid == first.solid && met[i].interval.enter <= last->interval.leave; ++i)
-      if (met[i].interval.leave > last->interval.leave) last = &met[i];
-    if (!(last->interval.leave > 0.0)) continue;
-    Crossing& crossing = out.emplace_back();
-    crossing.solid = first.solid;
-    crossing.starts_inside = first.interval.enter < 0.0;
-    crossing.enter = std::max(0.0, first.interval.enter);
-    crossing.leave = last->interval.leave;
-    if (!crossing.starts_inside) crossing.enter_normal = normal(lane, first, crossing.enter, first.part, first.interval.enter_face);
-    if (crossing.leave < infinity) crossing.leave_normal = normal(lane, *last, crossing.leave, last->leave_part, last->interval.leave_face);
-  }
-  if (one_part_each) return;
-  std::sort(out.begin() + static_cast<std::ptrdiff_t>(begin), out.end(), [](const Crossing& a, const Crossing& b) {
-    if (a.enter != b.enter) return a.enter < b.enter;
-    if (a.leave != b.leave) return a.leave < b.leave;
-    return a.solid < b.solid;
-  });
 }
 
 }  // namespace thicket

@@ -137,7 +137,7 @@ bool Scene::Impl::on_surface(const glm::dvec3& point, const Moving* moving) cons
 Clearance Scene::clearance(const Hull& hull, const Moment& moment, double limit) const {
   Clearance answer;
   const glm::dvec3 at = moment.position - impl_->origin;
-  if (impl_->empty() || !(std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z)) || !(limit >= 0.0)) return answer;
+  if (impl_->empty() || !finite(at) || !(limit >= 0.0)) return answer;
   const double z_low = at.z + hull.z_low, z_high = at.z + hull.z_high;
 
   // Beyond the far corner of the box there is nothing: a limit that reaches that far is as good as an infinite one, and finite.

@@ -2,17 +2,19 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 
 #include "scene_layer.hpp"
 
 namespace thicket {
+
+inline bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// A solid that moves, in its prototype's frame.
 struct Mover {
   const Prototype* prototype = nullptr;
   std::uint32_t solid = no_solid;
   double sheet_thickness = 0.0;
-  double reach = 0.0;  ///< of its matter from its position, m
 };
 
 /// A line that leaves most scenes soon, and lies along no wall.
@@ -46,10 +48,10 @@ struct Scene::Impl {
 
   /// The closed meshes that a point (relative to the origin) is inside of, told by a line from it: any line, but where the point is on a surface.
   Windings windings(const glm::dvec3& point, const Moving* moving, const glm::dvec3& along = upward) const;
-  /// Whether a point is within a nanometre of the surface of a closed mesh.
-  bool on_surface(const glm::dvec3& point, const Moving* moving) const;
   /// The same for one instance alone.
   Windings windings_in(const Instance& instance, const glm::dvec3& point) const;
+  /// Whether a point is within a nanometre of the surface of a closed mesh.
+  bool on_surface(const glm::dvec3& point, const Moving* moving) const;
 
   /// Makes crossings of the parts of each solid that touch or overlap.
   void join_parts(const LaneRay& lane, std::vector<PartCrossing>& met, double stop, std::vector<Crossing>& out) const;
@@ -66,8 +68,5 @@ struct Scene::Moving {
   std::vector<Instance> instances;
   EmbreeScene scene;
 };
-
-/// Where a solid of a mesh, tilted or moving, stands; `centre` is its prototype's.
-Placing placing_of(const Solid& solid, const glm::dvec3& centre, const glm::dvec3& origin);
 
 }  // namespace thicket

@@ -184,9 +184,8 @@ Bounds bounds_of(const Prototype& prototype) {
 
 }  // namespace
 
-void attach_boxes(const std::vector<Instance>& instances, double slack, RTCDevice device, RTCScene scene) {
-  if (instances.empty()) return;
-  // Kept by the geometry until the scene is built.
+void commit_with_boxes(const std::vector<Instance>& instances, double slack, RTCDevice device, RTCScene scene) {
+  // Read when the scene is committed.
   struct Boxes {
     std::vector<Bounds> of;
     double slack;
@@ -213,7 +212,7 @@ void attach_boxes(const std::vector<Instance>& instances, double slack, RTCDevic
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(scene, geometry, instance_kind);
   rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene);  // while the boxes are there
+  rtcCommitScene(scene);
 }
 
 void update(const std::vector<Instance>& instances, RTCScene scene) {

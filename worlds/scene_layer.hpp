@@ -107,8 +107,8 @@ void build(Prototype& prototype, RTCDevice device);
 /// Puts parts, triangles or instances into a scene that is not committed yet.
 void attach(const Prototype& prototype, RTCDevice device, RTCScene scene);
 void attach(const std::vector<Instance>& instances, RTCDevice device, RTCScene scene);
-/// Puts a box for each instance into a scene for point queries, as geometry `instance_kind`: Embree's own queries through instances miss things where these are scaled.
-void attach_boxes(const std::vector<Instance>& instances, double slack, RTCDevice device, RTCScene scene);
+/// Puts a box for each instance into a scene for point queries, as geometry `instance_kind`, and commits it: Embree's own queries through instances miss things where these are scaled.
+void commit_with_boxes(const std::vector<Instance>& instances, double slack, RTCDevice device, RTCScene scene);
 /// Puts the instances where they stand now; the scene must be committed afterwards.
 void update(const std::vector<Instance>& instances, RTCScene scene);
 

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "parts.hpp"
 #include "polygon.hpp"
 #include "pose_table.hpp"
 #include "thicket/base/movingai.hpp"
@@ -95,8 +96,8 @@ class SolidReader {
   /// Keys are in range each, but a repeat, a table or a scale comes on top of them.
   bool too_far(const std::vector<Solid>& body) {
     for (const Solid& solid : body) {
-      for (const glm::dvec3& p : solid.motion ? solid.motion->points : std::vector{solid.position})
-      if (const double farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); farthest > largest_m) {
+      for (const glm::dvec3& p : solid.motion ? solid.motion->points : std::vector{solid.position}) {
+        if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= largest_m) continue;
         faults_.add(entry_.place, fmt::format("'{}' comes to lie at [{}, {}, {}], expected at most {} m from 0 along each axis", solid.name, p.x, p.y, p.z, largest_m));
         return true;
       }
@@ -262,11 +263,10 @@ class SolidReader {
       return;
     }
     if (const Node* position = entry_.find("position_m")) faults_.add(position->key_place, "'position_m' and [solid.motion] are both given, expected one: a moving solid is where its way-points are");
-    const bool rises = std::ranges::any_of(keys.waypoints, [&](const glm::dvec3& p) { return p.z != keys.waypoints.front().z; });
-    if (rises && !body.empty() && !world_.materials.empty() && world_.materials[body.front().material].stops_motion)
-      faults_.add(node.find("waypoints_m")->place, "'waypoints_m' go up or down, expected one z: the solid stops motion, and contact is looked for in the plane");
     auto motion = std::make_shared<Motion>();
     motion->points = keys.waypoints;
+    if (changes_height(*motion) && !body.empty() && !world_.materials.empty() && world_.materials[body.front().material].stops_motion)
+      faults_.add(node.find("waypoints_m")->place, "'waypoints_m' go up or down, expected one z: the solid stops motion, and contact is looked for in the plane");
     motion->speed = keys.speed;
     motion->start_s = keys.start_s;
     motion->spin = radians(keys.spin_deg_s);
@@ -275,19 +275,9 @@ class SolidReader {
     for (Solid& solid : body) {
       const glm::dvec3 own = solid.position;
       solid.motion = motion;
-      move(solid, [&](const glm::dvec3& p) { return own + p; });
+      move_solid(solid, [&](const glm::dvec3& p) { return own + p; });
       solid.position = solid.motion->points.front();
     }
-  }
-
-  /// Moves a solid and its way.
-  template <class Place>
-  static void move(Solid& solid, const Place& placed) {
-    solid.position = placed(solid.position);
-    if (!solid.motion) return;
-    auto motion = std::make_shared<Motion>(*solid.motion);
-    for (glm::dvec3& p : motion->points) p = placed(p);
-    solid.motion = std::move(motion);
   }
 
   bool too_many(const Place& place, const std::vector<Solid>& body, double copies) {
@@ -324,7 +314,7 @@ class SolidReader {
             all.push_back(part);
             all.back().name = numbered(part.name, number);
             const glm::dvec3 by = turn * (glm::dvec3(i, j, k) * keys.spacing);
-            move(all.back(), [&](const glm::dvec3& p) { return p + by; });
+            move_solid(all.back(), [&](const glm::dvec3& p) { return p + by; });
           }
         }
     return all;
@@ -361,7 +351,7 @@ class SolidReader {
         }
         // The solid's own pose is within the pose of the table.
         const glm::dmat3 turn = rotation_of(pose.yaw, pose.pitch, pose.roll);
-        move(solid, [&](const glm::dvec3& p) { return pose.position + turn * (pose.scale * p); });
+        move_solid(solid, [&](const glm::dvec3& p) { return pose.position + turn * (pose.scale * p); });
         if (pose.pitch == 0.0 && pose.roll == 0.0) {
           solid.yaw += pose.yaw;
         } else {

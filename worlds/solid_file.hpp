@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "thicket/base/document.hpp"
@@ -27,6 +29,16 @@ void read_solid(const Node& entry, const std::filesystem::path& folder, Material
 /// The file that a key of a table names, relative to `folder`; nothing, and a fault at the key's value, if there is none. (Nothing alone if the key is missing or
 /// is no text: the section tells.)
 std::optional<std::filesystem::path> file_of(const Node& table, const char* key, const std::filesystem::path& folder, Faults& faults);
+
+/// Moves a solid and its way: `placed` gives the new place of a point.
+template <class Place>
+void move_solid(Solid& solid, const Place& placed) {
+  solid.position = placed(solid.position);
+  if (!solid.motion) return;
+  auto motion = std::make_shared<Motion>(*solid.motion);
+  for (glm::dvec3& p : motion->points) p = placed(p);
+  solid.motion = std::move(motion);
+}
 
 /// A grid map as a solid: its frame is the map's own, placed by the solid's pose.
 void place_map(Solid& solid, GridMap grid, const MapOptions& options);

@@ -2,9 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
-
 #include <cmath>
+#include <optional>
 
 #include <glm/common.hpp>
 
@@ -135,13 +134,8 @@ class WorldReader final : public MaterialFinder {
     for (Solid& solid : other.solids) {
       solid.name = prefix + "/" + solid.name;
       solid.material = materials[solid.material];
-      solid.position = placed(solid.position);
+      move_solid(solid, placed);
       solid.yaw += yaw;
-      if (solid.motion) {
-        auto motion = std::make_shared<Motion>(*solid.motion);
-        for (glm::dvec3& p : motion->points) p = placed(p);
-        solid.motion = std::move(motion);
-      }
       world_.solids.push_back(std::move(solid));
     }
     for (std::string& notice : other.notices) world_.notices.push_back(std::move(notice));
@@ -267,9 +261,7 @@ Result<World> read_world(const std::filesystem::path& file, const MapOptions& ma
   World& world = read->world;
   if (read->floor || read->ceiling) {
     // What a picture or a score is about is still the world without them.
-    std::optional<Bounds> box;
-    for (const Solid& solid : world.solids)
-      if (const Bounds one = whole_extent(solid); one.low.x <= one.high.x) box = box ? join(*box, one) : one;
+    const auto box = whole_extent(world);
     const glm::dvec4 taken = box ? glm::dvec4(box->low.x, box->low.y, box->high.x, box->high.y) : glm::dvec4(-1.0, -1.0, 1.0, 1.0);
     const glm::dvec4 slab = world.bounds.value_or(taken);
     if (!world.bounds) world.bounds = taken + (box ? glm::dvec4(-1.0, -1.0, 1.0, 1.0) : glm::dvec4(0.0));  // as `thicket truth` has it without a floor

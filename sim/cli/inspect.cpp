@@ -13,11 +13,6 @@
 namespace thicket::cli {
 namespace {
 
-int complain(const Error& error) {
-  fmt::print(stderr, "{}\n", error.message);
-  return bad_input;
-}
-
 std::string text_of(const Node& document, const char* key) {
   const Node* node = document.find(key);
   const auto* text = node ? std::get_if<std::string>(&node->content) : nullptr;
@@ -61,6 +56,11 @@ int check_mission(const std::filesystem::path& file, const std::vector<Override>
 
 }  // namespace
 
+int complain(const Error& error) {
+  fmt::print(stderr, "{}\n", error.message);
+  return bad_input;
+}
+
 bool is_mission(const std::filesystem::path& file) {
   if (file.extension() != ".toml") return false;
   const auto document = read_document(file);
@@ -71,6 +71,13 @@ std::string missing_input(const std::string& name) {
   std::error_code none;
   if (std::filesystem::is_directory(name, none)) return fmt::format("'{}' is a folder, expected a file in it", name);
   return fmt::format("there is no file '{}'; shipped ones are listed by `thicket worlds`", name);
+}
+
+Result<std::filesystem::path> find_world(const std::string& name) {
+  const auto file = find_input(name);
+  if (file.empty()) return Error{fmt::format("there is no world '{}'; shipped ones are listed by `thicket worlds`", name)};
+  if (is_mission(file)) return Error{fmt::format("{}: this is a mission and not a world, expected a world file", file.string())};
+  return file;
 }
 
 int check_file(const CheckArguments& arguments) {

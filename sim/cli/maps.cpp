@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -19,26 +17,6 @@ namespace thicket::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-int complain(const Error& error) {
-  fmt::print(stderr, "{}\n", error.message);
-  return bad_input;
-}
-
-/// "1,2.5" as exactly `count` finite numbers.
-template <std::size_t count>
-std::optional<std::array<double, count>> numbers(const std::string& text) {
-  std::array<double, count> values{};
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i > 0 && (at == end || *at++ != ',')) return std::nullopt;
-    const auto [stop, failure] = std::from_chars(at, end, values[i]);
-    if (failure != std::errc{} || !std::isfinite(values[i])) return std::nullopt;
-    at = stop;
-  }
-  return at == end ? std::optional(values) : std::nullopt;
-}
 
 struct Area {
   glm::dvec2 low, high;

@@ -6,7 +6,6 @@
 #include <cstdio>
 
 #include "program.hpp"
-#include "thicket/base/files.hpp"
 #include "thicket/worlds/world.hpp"
 
 namespace thicket::cli {
@@ -66,17 +65,11 @@ std::string aligned(const std::vector<Row>& rows) {
   return text;
 }
 
-int complain(const Error& error) {
-  fmt::print(stderr, "{}\n", error.message);
-  return bad_input;
-}
-
 Result<std::vector<Material>> materials_of(const std::string& world_name) {
   if (world_name.empty()) return material_presets();
-  const auto file = find_input(world_name);
-  if (file.empty()) return Error{fmt::format("there is no world '{}'; shipped ones are listed by `thicket worlds`", world_name)};
-  if (is_mission(file)) return Error{fmt::format("{}: this is a mission and not a world, expected a world file", file.string())};
-  auto world = read_world(file);
+  const auto file = find_world(world_name);
+  if (!file) return file.error();
+  auto world = read_world(*file);
   if (!world) return world.error();
   return std::move(world->materials);
 }
@@ -84,14 +77,10 @@ Result<std::vector<Material>> materials_of(const std::string& world_name) {
 }  // namespace
 
 int list_materials(const MaterialsArguments& arguments) {
-  if (!(arguments.frequency_ghz >= 0.3 && arguments.frequency_ghz <= 300.0)) {
-    fmt::print(stderr, "--frequency-ghz is {}, expected 0.3 to 300\n", arguments.frequency_ghz);
-    return bad_input;
-  }
-  if (arguments.thickness_m && !(*arguments.thickness_m > 0.0 && *arguments.thickness_m <= 1e3)) {
-    fmt::print(stderr, "--thickness-m is {}, expected metres, above 0 and at most 1000\n", *arguments.thickness_m);
-    return bad_input;
-  }
+  if (!(arguments.frequency_ghz >= 0.3 && arguments.frequency_ghz <= 300.0))
+    return complain({fmt::format("--frequency-ghz is {}, expected 0.3 to 300", arguments.frequency_ghz)});
+  if (arguments.thickness_m && !(*arguments.thickness_m > 0.0 && *arguments.thickness_m <= 1e3))
+    return complain({fmt::format("--thickness-m is {}, expected metres, above 0 and at most 1000", *arguments.thickness_m)});
   const auto materials = materials_of(arguments.world);
   if (!materials) return complain(materials.error());
   std::vector<Row> rows = {heads(arguments)};

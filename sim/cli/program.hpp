@@ -1,6 +1,9 @@
 // The commands of the program, one function each; main.cpp parses the command line and calls them. Each returns the program's exit code.
 #pragma once
 
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -38,7 +41,6 @@ struct ConvertArguments {
   double resolution = 0.05, z_low = 0.0, z_high = 0.5, height = 2.5;  ///< m
 };
 
-int run_mission(const RunArguments& arguments);
 struct CheckArguments {
   std::string file;
   std::vector<Override> overrides;  ///< of a mission; what --map-image and --cell-size gave is among them
@@ -46,11 +48,8 @@ struct CheckArguments {
   std::optional<double> cell_size;
   std::string sensor = "usarsim2012";  ///< preset that a world's matter is held against
 };
+int run_mission(const RunArguments& arguments);
 int check_file(const CheckArguments& arguments);
-/// Why `find_input` found nothing of that name.
-std::string missing_input(const std::string& name);
-/// A TOML file that names a world, a planner or a sensor is a mission.
-bool is_mission(const std::filesystem::path& file);
 /// A world as a map or a picture, and whether there is a way: 0 if there is, 3 if not.
 int write_truth(const TruthArguments& arguments);
 int convert_map(const ConvertArguments& arguments);
@@ -73,5 +72,31 @@ struct PictureArguments {
 int draw_picture(const PictureArguments& arguments);
 
 int help_topic(const std::string& topic, bool markdown);
+
+// --- what commands share
+
+/// Prints the error; returns bad_input.
+int complain(const Error& error);
+/// Why `find_input` found nothing of that name.
+std::string missing_input(const std::string& name);
+/// A TOML file that names a world, a planner or a sensor is a mission.
+bool is_mission(const std::filesystem::path& file);
+/// The file of a world by its name; an error if there is none, or a mission.
+Result<std::filesystem::path> find_world(const std::string& name);
+
+/// "1,2.5" as exactly `count` finite numbers.
+template <std::size_t count>
+std::optional<std::array<double, count>> numbers(const std::string& text) {
+  std::array<double, count> values{};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i > 0 && (at == end || *at++ != ',')) return std::nullopt;
+    const auto [stop, failure] = std::from_chars(at, end, values[i]);
+    if (failure != std::errc{} || !std::isfinite(values[i])) return std::nullopt;
+    at = stop;
+  }
+  return at == end ? std::optional(values) : std::nullopt;
+}
 
 }  // namespace thicket::cli

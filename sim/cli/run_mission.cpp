@@ -67,11 +67,6 @@ int exit_code(const Verdict& verdict) {
   return internal_error;
 }
 
-int complain(const Error& error) {
-  fmt::print(stderr, "{}\n", error.message);
-  return bad_input;
-}
-
 /// The folder of a run that names none: its name, without anything that would lead elsewhere.
 std::filesystem::path standard_folder(const std::string& name) {
   std::string plain;

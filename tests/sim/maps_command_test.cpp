@@ -1,14 +1,12 @@
 // `thicket truth` and `thicket convert` as a person or a script meets them.
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 #include <utility>
 
 #include "outside_data.hpp"
-#include "temporary_folder.hpp"
+#include "program_call.hpp"
 #include "thicket/base/files.hpp"
 #include "thicket/base/image.hpp"
 #include "thicket/base/map_file.hpp"
@@ -17,20 +15,6 @@
 
 namespace thicket {
 namespace {
-
-struct Answer {
-  int code = -1;
-  std::string out, err;
-};
-
-Answer call(const TemporaryFolder& folder, const std::string& arguments) {
-  const std::string out = (folder.path() / "stdout").string(), err = (folder.path() / "stderr").string();
-  const std::string command = "cd '" + folder.path().string() + "' && '" THICKET_PROGRAM "' " + arguments + " >'" + out + "' 2>'" + err + "' </dev/null";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, *read_text_file(out), *read_text_file(err)};
-}
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// A wall with a gap of 1 m from x = 3 to 3.2, in a room of 6 x 4 m; smoke in the gap; a lintel over it.
 constexpr const char* gap_world = R"(name = "gap"

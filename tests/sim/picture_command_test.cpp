@@ -1,34 +1,14 @@
 // `thicket picture`, and the page that `thicket help world --markdown` is a part of.
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <string>
 #include <utility>
 
-#include "temporary_folder.hpp"
+#include "program_call.hpp"
 #include "thicket/base/files.hpp"
 #include "thicket/base/image.hpp"
 
 namespace thicket {
-namespace {
-
-struct Answer {
-  int code = -1;
-  std::string out, err;
-};
-
-Answer call(const TemporaryFolder& folder, const std::string& arguments) {
-  const std::string out = (folder.path() / "stdout").string(), err = (folder.path() / "stderr").string();
-  const std::string command = "cd '" + folder.path().string() + "' && '" THICKET_PROGRAM "' " + arguments + " >'" + out + "' 2>'" + err + "' </dev/null";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, *read_text_file(out), *read_text_file(err)};
-}
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-}  // namespace
-
 TEST_CASE("picture draws a shipped world") {
   const TemporaryFolder folder;
   const Answer answer = call(folder, "picture solids/smoke --out s.png --size 64x40");

@@ -7,21 +7,12 @@
 #include <glm/geometric.hpp>
 
 #include "thicket/base/pose.hpp"
+#include "hand_made_mesh.hpp"
 #include "thicket/worlds/generators.hpp"
 
 using namespace thicket;
 
 namespace {
-
-/// The area of one side.
-double area(const Mesh& mesh) {
-  double sum = 0.0;
-  for (const glm::uvec3& t : mesh.triangles) {
-    const glm::dvec3 a = mesh.vertices[t.x];
-    sum += 0.5 * glm::length(glm::cross(mesh.vertices[t.y] - a, mesh.vertices[t.z] - a));
-  }
-  return sum;
-}
 
 /// The area that leaves show from a direction, by their area.
 double projection(const Mesh& mesh, const glm::dvec3& direction) {

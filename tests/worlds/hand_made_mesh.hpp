@@ -39,6 +39,16 @@ struct Soup {
   std::shared_ptr<const Mesh> mesh() const { return make_mesh(vertices, triangles); }
 };
 
+/// The area of a mesh, of one side of each triangle.
+inline double area(const Mesh& mesh) {
+  double sum = 0.0;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::dvec3 a = mesh.vertices[t.x];
+    sum += 0.5 * glm::length(glm::cross(mesh.vertices[t.y] - a, mesh.vertices[t.z] - a));
+  }
+  return sum;
+}
+
 /// A box about the origin.
 inline Soup box_soup(const glm::dvec3& size) {
   Soup soup;

@@ -14,21 +14,13 @@
 #include "../outside_data.hpp"
 #include "../temporary_folder.hpp"
 #include "thicket/base/files.hpp"
+#include "hand_made_mesh.hpp"
 #include "thicket/worlds/mesh_file.hpp"
 
 using namespace thicket;
 namespace fs = std::filesystem;
 
 namespace {
-
-double area(const Mesh& mesh) {
-  double sum = 0.0;
-  for (const glm::uvec3& t : mesh.triangles) {
-    const glm::dvec3 a = mesh.vertices[t.x];
-    sum += 0.5 * glm::length(glm::cross(mesh.vertices[t.y] - a, mesh.vertices[t.z] - a));
-  }
-  return sum;
-}
 
 /// The lines of a cube with its lowest corner somewhere; its vertices follow `before` others. Faces: bottom, top, front, right, back, left.
 struct Cube {
