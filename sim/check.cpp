@@ -51,22 +51,25 @@ void warn_of_stealth(const Simulation& simulation, std::vector<std::string>& war
 /// What the sensor that drives the bumpers cannot see in time, whatever it is made of.
 void warn_of_blindness(const Simulation& simulation, std::vector<std::string>& warnings) {
   const Mission& mission = simulation.mission();
-  const ScannerSpec& sensor = simulation.stage().sensors.front()->spec();
+  const MountedSpec& sensor = simulation.stage().sensors.front()->spec();
+  const ScannerSpec* scanning = scanner(mission.sensors.front());
   const double radius = mission.vehicle.radius_m, press = simulation.bumpers().press_distance();
   const double speed = std::min(mission.vehicle.speed_max_m_s, mission.planner.speed_m_s.value_or(mission.vehicle.speed_max_m_s));
   const double rate = std::min(sensor.rate_hz, 1.0 / mission.step_s);
   for (const SensorSpec& spec : mission.sensors)
-    if (scanner(spec).rate_hz * mission.step_s > 1.0 + 1e-9)
-      warnings.push_back(fmt::format("sensor '{}' is to scan at {} Hz, but there is one scan a step at most, {:g} Hz: make step_s smaller", scanner(spec).name, scanner(spec).rate_hz, 1.0 / mission.step_s));
+    if (mounted(spec).rate_hz * mission.step_s > 1.0 + 1e-9)
+      warnings.push_back(fmt::format("sensor '{}' is to scan at {} Hz, but there is one scan a step at most, {:g} Hz: make step_s smaller", mounted(spec).name, mounted(spec).rate_hz, 1.0 / mission.step_s));
   if (sensor.range_max_m < radius + press)
     warnings.push_back(fmt::format("sensor '{}' sees {} m far, but a bumper must be pressed {:.2f} m from the robot's axis to keep the clearance: make range_max_m longer", sensor.name, sensor.range_max_m, radius + press));
   if (sensor.range_min_m > radius)
     warnings.push_back(fmt::format("sensor '{}' sees nothing nearer than {} m, which is outside the hull: make range_min_m shorter", sensor.name, sensor.range_min_m));
-  if (sensor.fov_deg < 360.0 && mission.planner.name != "waypoints")
-    warnings.push_back(fmt::format("sensor '{}' sees {} of 360 degrees: the planner '{}' follows boundaries beside and behind it and may run into what it does not see", sensor.name, sensor.fov_deg, mission.planner.name));
+  const double seen_deg = scanning ? scanning->fov_deg : std::get<LobeRadarSpec>(mission.sensors.front()).azimuth_opening_deg;
+  if (seen_deg < 360.0 && mission.planner.name != "waypoints")
+    warnings.push_back(fmt::format("sensor '{}' sees {} of 360 degrees: the planner '{}' follows boundaries beside and behind it and may run into what it does not see", sensor.name, seen_deg, mission.planner.name));
   if (speed / rate > mission.planner.clearance_m)
     warnings.push_back(fmt::format("the robot drives {:.2f} m between two scans, more than the clearance of {} m", speed / rate, mission.planner.clearance_m));
-  const double spacing = radians(sensor.step_deg) * (radius + mission.planner.clearance_m);
+  if (!scanning) return;
+  const double spacing = radians(scanning->step_deg) * (radius + mission.planner.clearance_m);
   std::vector<std::string> thin;
   for (const Solid& solid : simulation.stage().scene.world().solids) {
     const auto* box = std::get_if<Box>(&solid.shape);

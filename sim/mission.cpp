@@ -127,7 +127,7 @@ Node& member(Node& table, const std::string& key) {
 /// The name of a [[sensor]] entry, its preset's if it has none of its own. Faults are told when the entry is read.
 std::string name_of_sensor(const Node& entry) {
   Faults ignored;
-  return scanner(read_sensor(entry, ignored)).name;
+  return mounted(read_sensor(entry, ignored)).name;
 }
 
 void apply_to_sensors(Node& root, const std::string& rest, const Override& change, Faults& faults) {
@@ -193,15 +193,15 @@ void check_together(const Node& root, const Mission& mission, Faults& faults) {
     faults.add(place("planner"), fmt::format("the planner '{}' lacks {}", mission.planner.name, lack));
   }
   for (const SensorSpec& sensor : mission.sensors) {
-    const double cells = 2.0 * scanner(sensor).range_max_m / mission.map.resolution_m;
+    const double cells = 2.0 * mounted(sensor).range_max_m / mission.map.resolution_m;
     if (mission.map.enabled && cells * cells > 0x1p28)
       faults.add(place("map"), fmt::format("a scan of sensor '{}' covers {:.0f} x {:.0f} cells, expected at most 16384 x 16384: make map.resolution_m coarser or the range shorter",
-                                           scanner(sensor).name, cells, cells));
+                                           mounted(sensor).name, cells, cells));
   }
   for (std::size_t i = 0; i < mission.sensors.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (scanner(mission.sensors[i]).name == scanner(mission.sensors[j]).name)
-        faults.add(place("sensor"), fmt::format("two sensors are named '{}', expected different names", scanner(mission.sensors[i]).name));
+      if (mounted(mission.sensors[i]).name == mounted(mission.sensors[j]).name)
+        faults.add(place("sensor"), fmt::format("two sensors are named '{}', expected different names", mounted(mission.sensors[i]).name));
   if (const auto& r = mission.output.observed_region_m; r && (r->z - r->x) * (r->w - r->y) > 1e7 * mission.map.resolution_m * mission.map.resolution_m)
     faults.add(place("output"), "'observed_region_m' has more than 10 million cells, expected a smaller one");
   if (const auto& r = mission.output.observed_region_m; r && !(r->x < r->z && r->y < r->w))

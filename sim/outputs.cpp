@@ -38,7 +38,7 @@ const char* version() { return THICKET_VERSION; }
 std::optional<double> observed_share(const Simulation& simulation, const glm::dvec4& region) {
   const World& world = simulation.stage().scene.world();
   const OccupancyMap& map = simulation.map();
-  const double height = simulation.mission().start.z_m + scanner(simulation.mission().sensors.front()).position_m.z;
+  const double height = simulation.mission().start.z_m + mounted(simulation.mission().sensors.front()).position_m.z;
   const CellIndex first = map.cell_at({region.x, region.y}), last = map.cell_at({region.z, region.w});
   // The truth at the cells' own centres, at the sensor's height.
   const glm::dvec2 low = glm::dvec2(static_cast<double>(first.column), static_cast<double>(first.row)) * map.resolution();

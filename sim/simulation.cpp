@@ -30,7 +30,7 @@ constexpr double look_ahead = 0.5;
 constexpr std::size_t planning_sensor = 0;
 
 VehicleLimits vehicle_limits(const Mission& mission) {
-  return mission.vehicle.limits(std::max(mission.step_s, 1.0 / scanner(mission.sensors[planning_sensor]).rate_hz));
+  return mission.vehicle.limits(std::max(mission.step_s, 1.0 / mounted(mission.sensors[planning_sensor]).rate_hz));
 }
 
 BumperRing make_bumpers(const Mission& mission) {

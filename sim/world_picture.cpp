@@ -120,12 +120,10 @@ struct Veil {
 class Painter {
  public:
   Painter(const Scene& scene, const Camera& camera, const PictureView& view, const Bounds& box)
-      : scene_(scene), camera_(camera), view_(view), materials_(scene.world().materials), far_(3.0 * glm::distance(camera.from, 0.5 * (box.low + box.high)) + 2.0 * glm::distance(box.low, box.high)), reach_(0.25 * glm::distance(box.low, box.high)) {
-    for (Material& material : materials_) {
+      : scene_(scene), camera_(camera), view_(view), far_(3.0 * glm::distance(camera.from, 0.5 * (box.low + box.high)) + 2.0 * glm::distance(box.low, box.high)), reach_(0.25 * glm::distance(box.low, box.high)) {
+    for (const Material& material : scene.world().materials) {
       const Look& look = looks_.emplace_back(look_of(material));
-      material.dielectric.reset();
-      material.attenuation_exponent = 0.0;
-      material.attenuation_db_per_m = look.kind == Look::Kind::solid ? infinity : look.extinction;
+      losses_.push_back(look.kind == Look::Kind::solid ? infinity : look.extinction);
     }
     pixel_angle_ = 2.0 * camera.half_width / view.width;
   }
@@ -138,7 +136,7 @@ class Painter {
       rays[i] = {camera_.from, camera_.direction(2.0 * x / view_.width - 1.0, 1.0 - 2.0 * y / view_.height), infinity};
     }
     CrossingLists lists;
-    scene_.crossings(rays, materials_, darkest, lists);
+    scene_.crossings(rays, losses_, darkest, lists);
     std::vector<Surface> surfaces(count);
     std::vector<Veil> veils(count);
     for (std::size_t i = 0; i < count; ++i) look_along(rays[i], lists[i], surfaces[i], veils[i]);
@@ -161,7 +159,7 @@ class Painter {
       of.push_back(i);
       rays.push_back({surfaces[i].shadow_from, towards_sun(i % samples), infinity});
     }
-    scene_.crossings(rays, materials_, darkest, lists);
+    scene_.crossings(rays, losses_, darkest, lists);
     for (std::size_t k = 0; k < of.size(); ++k) surfaces[of[k]].sunshine = passed(lists[k]);
 
     rays.clear();
@@ -173,7 +171,7 @@ class Painter {
         of.push_back(i);
         rays.push_back({surfaces[i].point + 1e-6 * (1.0 + surfaces[i].range) * surfaces[i].normal, direction, reach_});
       }
-    scene_.crossings(rays, materials_, darkest, lists);
+    scene_.crossings(rays, losses_, darkest, lists);
     std::vector<double> seen(surfaces.size(), 0.0), asked(surfaces.size(), 0.0);
     for (std::size_t k = 0; k < of.size(); ++k) {
       const double weight = glm::dot(rays[k].direction, surfaces[of[k]].normal);
@@ -288,7 +286,7 @@ class Painter {
   const Scene& scene_;
   const Camera& camera_;
   const PictureView& view_;
-  std::vector<Material> materials_;  // as light meets them: attenuation is optical depth a metre
+  std::vector<double> losses_;  // of every material: optical depth a metre
   std::vector<Look> looks_;
   double far_, reach_, pixel_angle_ = 0.0;  // how far away haze begins, and how far a surface looks for what hides the sky
 };

@@ -120,20 +120,17 @@ struct Nearest {
 };
 
 /// How far a ray gets inside each material before its budget is used up, m.
-inline std::vector<double> depths_of(std::span<const Material> materials, double budget_db, bool through_opaque) {
+inline std::vector<double> depths_of(std::span<const double> loss_per_m, double budget, bool through_opaque) {
   std::vector<double> depths;
-  depths.reserve(materials.size());
-  for (const Material& material : materials) {
-    const double attenuation = material.attenuation_db_per_m;
-    depths.push_back(through_opaque || !(attenuation > 0.0) ? infinity : attenuation == infinity ? 0.0 : budget_db / attenuation);
-  }
+  depths.reserve(loss_per_m.size());
+  for (const double loss : loss_per_m) depths.push_back(through_opaque || !(loss > 0.0) ? infinity : loss == infinity ? 0.0 : budget / loss);
   return depths;
 }
 
 /// All parts as far as the budget reaches.
 struct Gatherer {
   const std::vector<Matter>& matter;
-  std::vector<double> depths;  ///< `depths_of` the world's materials
+  std::vector<double> depths;  ///< by material: `depths_of`
   std::array<std::vector<PartCrossing>, packet> met{};
   std::array<std::vector<SurfaceHit>, packet> surfaces{};
   std::array<double, packet> stop{};

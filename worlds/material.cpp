@@ -72,6 +72,7 @@ const SectionOf<MaterialKeys>& material_section() {
     s.add("stops_light", member(&Material::stops_light), "", Range{}, "whether a lidar's ray ends at its surface, or inside it if light_extinction_per_m is finite");
     s.add("light_extinction_per_m", member(&Material::light_extinction_per_m), "1/m", or_infinite(at_least(0.0)),
           "of smoke and the like, which light enters: 1 / its mean free path; inf is a surface");
+    s.add("leaves_per_m", member(&Material::leaves_per_m), "1/m", between(0.0, 1e4), "how many leaves a ray meets per metre, for radars with statistical_foliage; 0 is even matter");
     s.add("stops_motion", member(&Material::stops_motion), "", Range{}, "whether a robot collides with it");
     s.add("source", member(&Material::source), "", Range{}, "where its figures come from");
     return s;

@@ -156,6 +156,7 @@ Result<Scene> Scene::build(World world) {
     const Material& m = impl->world.materials[solid.material];
     impl->matter.push_back({solid.material, {true, m.stops_light, m.stops_motion}});
   }
+  for (const Material& material : impl->world.materials) impl->losses.push_back(material.attenuation_db_per_m);
 
   impl->device.reset(rtcNewDevice(nullptr));
   if (!impl->device) return Error{fmt::format("Embree could not be started (error {})", static_cast<int>(rtcGetDeviceError(nullptr)))};
@@ -177,6 +178,11 @@ Result<Scene> Scene::build(World world) {
 
 const World& Scene::world() const { return impl_->world; }
 bool Scene::moves() const { return !impl_->movers.empty(); }
+glm::dvec3 Scene::velocity(std::uint32_t solid, const glm::dvec3& point) const {
+  const Standing now = standing_at(impl_->world.solids[solid], time_);
+  const glm::dvec3 arm = point - now.position;
+  return now.velocity + now.turn_rate * glm::dvec3(-arm.y, arm.x, 0.0);
+}
 double Scene::fastest() const { return impl_->fastest; }
 
 SceneFigures Scene::figures() const {

@@ -23,6 +23,7 @@ inline constexpr glm::dvec3 upward(0.36, 0.48, 0.8);
 struct Scene::Impl {
   World world;
   std::vector<Matter> matter;  ///< of every solid
+  std::vector<double> losses;  ///< of every material: attenuation, dB/m
   glm::dvec3 origin{0.0};
   Bounds box{glm::dvec3(0.0), glm::dvec3(0.0)};  ///< of all there is at any time, padded, relative to the origin
   double diagonal = 0.0;                         ///< of the box

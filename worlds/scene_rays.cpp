@@ -124,7 +124,8 @@ namespace {
 /// Collects the closed meshes along a line.
 class WindingCount {
  public:
-  WindingCount(const std::vector<Matter>& matter, std::span<const Material> materials, const LaneRay& lane) : gatherer_{matter, depths_of(materials, infinity, true)} {
+  /// `losses`: of the world's materials, as many as there are.
+  WindingCount(const std::vector<Matter>& matter, std::span<const double> losses, const LaneRay& lane) : gatherer_{matter, depths_of(losses, infinity, true)} {
     lanes_[0] = lane;
     gatherer_.reset();
     embree::start(query_);
@@ -168,7 +169,7 @@ Windings Scene::Impl::windings(const glm::dvec3& point, const Moving* moving, co
   LaneRay lane{point, along, infinity, 0.0, false};
   float far = 0.0f;
   if (!has_volumes || !enter(lane, far)) return {};
-  WindingCount count(matter, world.materials, lane);
+  WindingCount count(matter, losses, lane);
   const glm::dvec3 start = point + lane.shift * along;
   count.through(fixed.scene.get(), &instances, nullptr, start, along, far);
   if (moving) count.through(moving->scene.get(), &moving->instances, nullptr, start, along, far);
@@ -176,7 +177,7 @@ Windings Scene::Impl::windings(const glm::dvec3& point, const Moving* moving, co
 }
 
 Windings Scene::Impl::windings_in(const Instance& instance, const glm::dvec3& point) const {
-  WindingCount count(matter, world.materials, {point, upward, infinity, 0.0, false});
+  WindingCount count(matter, losses, {point, upward, infinity, 0.0, false});
   const Placing& p = instance.placing;
   count.through(instance.prototype->scene.get(), nullptr, &instance, p.to_inner(point), p.direction_to_inner(upward), std::numeric_limits<float>::max());
   return count.windings();
@@ -286,13 +287,13 @@ void pair_surfaces(std::vector<SurfaceHit>& hits, bool to_end, const Windings& a
 }  // namespace
 
 std::size_t Scene::crossings(std::span<const Ray> rays, double budget_db, CrossingLists& lists, bool through_opaque) const {
-  return crossings(rays, impl_->world.materials, budget_db, lists, through_opaque);
+  return crossings(rays, impl_->losses, budget_db, lists, through_opaque);
 }
 
-std::size_t Scene::crossings(std::span<const Ray> rays, std::span<const Material> materials, double budget_db, CrossingLists& lists, bool through_opaque) const {
+std::size_t Scene::crossings(std::span<const Ray> rays, std::span<const double> loss_per_m, double budget, CrossingLists& lists, bool through_opaque) const {
   lists.items.clear();
   lists.first.assign(1, 0);
-  Gatherer gatherer{impl_->matter, depths_of(materials, budget_db, through_opaque)};
+  Gatherer gatherer{impl_->matter, depths_of(loss_per_m, budget, through_opaque)};
   AtOrigin start{*impl_, moving_.get()};
   return impl_->trace(rays, moving_.get(), gatherer, [&](std::size_t, unsigned lane, const LaneRay& lane_ray) {
     if (impl_->has_volumes && lane_ray.range_max >= 0.0) {

@@ -72,9 +72,9 @@ glm::dmat3 rotation_of(double yaw, double pitch, double roll) {
 }
 
 Standing standing_at(const Solid& solid, double time) {
-  if (!solid.motion) return {solid.position, solid.yaw};
+  if (!solid.motion) return {solid.position, solid.yaw, glm::dvec3(0.0), 0.0};
   const Motion& m = *solid.motion;
-  Standing there{solid.position, solid.yaw + m.spin * time};
+  Standing there{solid.position, solid.yaw + m.spin * time, glm::dvec3(0.0), m.spin};
   if (m.points.empty()) return there;
   // The way as legs: there, and for the modes that go on for ever back to the first point.
   const std::size_t count = m.points.size(), legs = m.mode == Motion::Mode::once ? count - 1 : m.mode == Motion::Mode::loop ? count : 2 * (count - 1);
@@ -92,6 +92,7 @@ Standing standing_at(const Solid& solid, double time) {
     const double leg = glm::distance(from, to);
     if (way < leg) {
       there.position = from + (way / leg) * (to - from);
+      if (time >= m.start_s) there.velocity = (m.speed / leg) * (to - from);
       break;
     }
     way -= leg;

@@ -21,6 +21,7 @@ inline ScanningRadarSpec one_beam_radar() {
   spec.range_max_m = 100.0;
   spec.penetration_budget_db = infinity;
   spec.detection_floor_db = -300.0;
+  spec.slab_max_m = 0.0;
   return spec;
 }
 

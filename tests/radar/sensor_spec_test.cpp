@@ -45,12 +45,12 @@ TEST_CASE("the presets that are shipped load, each as its own type") {
     CHECK(make_sensor(reading.spec, 0) != nullptr);
   }
   const Reading urg = read("preset = \"urg04lx\"");
-  CHECK(scanner(urg.spec).fov_deg == 240.0);
-  CHECK(scanner(urg.spec).step_deg == 0.3515625);
-  CHECK(scanner(urg.spec).range_max_m == 4.0);
+  CHECK(scanner(urg.spec)->fov_deg == 240.0);
+  CHECK(scanner(urg.spec)->step_deg == 0.3515625);
+  CHECK(mounted(urg.spec).range_max_m == 4.0);
   const Reading utm = read("preset = \"utm30lx\"");
-  CHECK(scanner(utm.spec).rate_hz == 40.0);
-  CHECK(scanner(utm.spec).range_max_m == 30.0);
+  CHECK(mounted(utm.spec).rate_hz == 40.0);
+  CHECK(mounted(utm.spec).range_max_m == 30.0);
   const Reading radar = read("preset = \"usarsim2012\"");
   CHECK(std::get<ScanningRadarSpec>(radar.spec).penetration_budget_db == 10.0);
   CHECK(std::get<ScanningRadarSpec>(radar.spec).divergence == "none");

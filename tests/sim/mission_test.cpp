@@ -50,8 +50,8 @@ TEST_CASE("a mission takes presets, its own keys on top, and defaults for the re
   CHECK(mission->planner.name == "bug2");
   CHECK(mission->planner.goal_m->y == 4.0);
   REQUIRE(mission->sensors.size() == 1);
-  CHECK(scanner(mission->sensors[0]).step_deg == 1.0);
-  CHECK(scanner(mission->sensors[0]).name == "radar");
+  CHECK(scanner(mission->sensors[0])->step_deg == 1.0);
+  CHECK(mounted(mission->sensors[0]).name == "radar");
   CHECK(mission->world_file == folder.path() / "w.toml");
 }
 
@@ -114,7 +114,7 @@ TEST_CASE("overrides are read like the file, and their faults name the flag") {
   REQUIRE(mission);
   CHECK(mission->planner.hand == "right");
   CHECK(mission->planner.clearance_m == 0.5);
-  CHECK(scanner(mission->sensors[0]).range_max_m == 12.0);
+  CHECK(mounted(mission->sensors[0]).range_max_m == 12.0);
   CHECK(mission->seed == 7);
   CHECK(fault_of(good, {{"planner.clearance", "0.5", "--set planner.clearance"}}).find("--set planner.clearance: unknown key 'clearance' in [planner] (did you mean") != std::string::npos);
   CHECK(fault_of(good, {{"planner.clearance_m", "wide", "--set planner.clearance_m"}}).find("--set planner.clearance_m: 'clearance_m' is a text") != std::string::npos);

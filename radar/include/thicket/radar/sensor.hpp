@@ -12,24 +12,36 @@
 
 namespace thicket {
 
+/// What carries a sensor: where it is and how it moves, in world coordinates.
+struct Platform {
+  Pose pose;
+  glm::dvec3 velocity{0.0};   ///< m/s
+  glm::dvec3 turn_rate{0.0};  ///< rad/s, angular velocity about the pose's position
+
+  Platform() = default;
+  Platform(const Pose& standing) : pose(standing) {}  // NOLINT: a pose is a platform at rest
+  Platform(const Pose& moving, const glm::dvec3& with, const glm::dvec3& turning) : pose(moving), velocity(with), turn_rate(turning) {}
+};
+
 /// A sensor: immutable, so that any number of simulations and threads may share it.
 class Sensor {
  public:
   virtual ~Sensor() = default;
 
-  /// Measures from a vehicle's pose. The scan is a function of the arguments alone. `scan` is overwritten; its memory is used again.
-  virtual void measure(const Scene& scene, const Pose& vehicle, double time, std::uint64_t number, const Random& random, Scan& scan) const = 0;
+  /// Measures from a platform. The scan is a function of the arguments alone, whatever the number of threads. `scan` is overwritten; its memory is used again.
+  virtual void measure(const Scene& scene, const Platform& platform, double time, std::uint64_t number, const Random& random, Scan& scan) const = 0;
 
-  /// Whether a surface of this material, met squarely from the open, gives an echo; of a medium that light enters, whether enough of it does.
+  /// Whether a surface of this material that fills a beam, met squarely from the open at the end of the range, gives an echo; of a medium that light enters, whether
+  /// enough of it does.
   virtual bool detects(const Material& material) const = 0;
 
-  const ScannerSpec& spec() const { return spec_; }
+  const MountedSpec& spec() const { return spec_; }
 
  protected:
-  explicit Sensor(ScannerSpec spec) : spec_(std::move(spec)) {}
+  explicit Sensor(MountedSpec spec) : spec_(std::move(spec)) {}
 
  private:
-  ScannerSpec spec_;
+  MountedSpec spec_;
 };
 
 /// `index` tells the sensors of one vehicle apart (`Scan::sensor`).

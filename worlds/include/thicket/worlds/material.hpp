@@ -26,6 +26,7 @@ struct Material {
   bool stops_light = true;    ///< a lidar's ray ends at its surface, or inside it if light_extinction_per_m is finite
   bool stops_motion = true;   ///< a robot collides with it
   double light_extinction_per_m = std::numeric_limits<double>::infinity();  ///< of a medium that light enters (smoke): 1 / mean free path; infinite: a surface
+  double leaves_per_m = 0.0;             ///< of a crown: how many leaves a ray meets per metre, on average; 0: not made of leaves. For radars with `statistical_foliage`
   double attenuation_exponent = 0.0;     ///< attenuation_db_per_m grows with (f / 1 GHz)^this
   std::optional<Dielectric> dielectric = std::nullopt;  ///< where there is one, reflectivity and attenuation follow from it
   std::string source = {};               ///< where the numbers come from

@@ -104,6 +104,8 @@ class Scene {
   void set_time(double time);
   double time() const { return time_; }
   bool moves() const;
+  /// How fast a point (in world coordinates) of a solid moves now, m/s; zero for one that stands still.
+  glm::dvec3 velocity(std::uint32_t solid, const glm::dvec3& point) const;
   /// The greatest speed of any point of a moving solid, m/s; 0 where nothing moves.
   double fastest() const;
 
@@ -114,9 +116,9 @@ class Scene {
   /// behind the point where the ray is exhausted (behind the entrance of an opaque solid at the latest); an infinite budget with `through_opaque` gives everything up
   /// to range_max. Returns how many rays were rejected.
   std::size_t crossings(std::span<const Ray> rays, double budget_db, CrossingLists& lists, bool through_opaque = false) const;
-  /// The same with other attenuations than the world's: `materials` are its materials in its order, as a wave of some frequency meets them. (Any unit of loss will
-  /// do that the budget is in too.)
-  std::size_t crossings(std::span<const Ray> rays, std::span<const Material> materials, double budget_db, CrossingLists& lists, bool through_opaque = false) const;
+  /// The same with other losses than the world's attenuations: `loss_per_m` of its materials in its order, as a wave of some frequency meets them, >= 0, infinite where
+  /// it is stopped; in any unit that the budget is in too.
+  std::size_t crossings(std::span<const Ray> rays, std::span<const double> loss_per_m, double budget, CrossingLists& lists, bool through_opaque = false) const;
 
   /// Clearance of the hull at a position (world x, y and the z that the hull stands on), as far as `limit`, at the scene's time or another one.
   Clearance clearance(const Hull& hull, const glm::dvec3& position, double limit) const { return clearance(hull, Moment{position, time_}, limit); }

@@ -100,10 +100,12 @@ struct Solid {
 glm::dmat3 rotation_of(double yaw, double pitch, double roll);
 inline glm::dmat3 rotation_of(const Solid& solid) { return rotation_of(solid.yaw, solid.pitch, solid.roll); }
 
-/// Where a solid stands at a time, s; always the same for one that does not move.
+/// Where a solid stands at a time, s, and how it moves there; always the same for one that does not move.
 struct Standing {
   glm::dvec3 position{0.0};
   double yaw = 0.0;  ///< rad
+  glm::dvec3 velocity{0.0};  ///< m/s, of its position; at a way-point, of the leg that begins there
+  double turn_rate = 0.0;    ///< rad/s, about its vertical axis
 };
 Standing standing_at(const Solid& solid, double time);
 

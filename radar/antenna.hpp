@@ -1,0 +1,63 @@
+// Where an antenna sends its rays, and how much of the power each of them stands for. Private to the room.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "thicket/radar/sensor_spec.hpp"
+
+namespace thicket {
+
+/// One ray of a beam, against the beam's axis. It stands for a cell of directions about it.
+struct SubRay {
+  double azimuth = 0.0, elevation = 0.0;            ///< rad; the azimuth adds to the beam's
+  double azimuth_cell = 0.0, elevation_cell = 0.0;  ///< rad, full widths of its cell
+  double lateral = 0.0;   ///< m, how far left of the sensor it starts (parallel side rays)
+  double share = 1.0;     ///< of what a beam-filling target returns: g^2 (two-way) times the cell's solid angle, over the integral of g^2 over the opening
+  std::int8_t side = 0;   ///< +1 the left side ray, -1 the right one
+};
+
+/// An antenna without its mount: the azimuths of its beams, the rays of one beam (the same for all), and its gain.
+class Antenna {
+ public:
+  explicit Antenna(const ScanningRadarSpec& spec);
+  explicit Antenna(const LobeRadarSpec& spec);
+
+  /// rad, in the sensor's frame; one for a lobe.
+  const std::vector<double>& beam_azimuths() const { return azimuths_; }
+  /// At the middles of their cells. The shares of a lobe sum to 1 but for the sampling (under 0.1 % from 10 x 10 rays on); of side rays and a cone they are equal and sum to 1 a row.
+  std::span<const SubRay> rays() const { return rays_; }
+  /// A ray somewhere in its cell, u in (0, 1)^2: its angles and its share are those of that place (so that the mean over u of a sum over rays is the integral over the opening).
+  SubRay jittered(const SubRay& ray, const std::array<double, 2>& u) const;
+
+  /// One-way power gain against the axis, 0...1, towards angles off a beam's axis; 0 outside the opening.
+  double gain(double azimuth, double elevation) const;
+  /// The same for a direction in the frame of a beam (x along its axis), any length > 0.
+  double gain(const glm::dvec3& direction) const;
+  /// On the axis, against an isotropic antenna without loss: 4 pi / integral of g, g as in `gain`.
+  double directivity() const { return directivity_; }
+  /// sr: integral of g^2 over the opening.
+  double two_way_solid_angle() const { return two_way_solid_angle_; }
+  /// rad, full: in what an echo of a beam may lie; 0 for a beam that is one ray.
+  glm::dvec2 opening() const { return opening_; }
+
+ private:
+  // ... the helper that writes antenna.cpp chooses what is needed here
+  std::vector<double> azimuths_;
+  std::vector<SubRay> rays_;
+  double directivity_ = 1.0, two_way_solid_angle_ = 1.0;
+  glm::dvec2 opening_{0.0};
+};
+
+/// The directions of a scanner's beams, rad, counter-clockwise from its x axis: all of a full circle, or a sector with a beam at both ends.
+std::vector<double> azimuths_of(const ScannerSpec& spec);
+
+/// Billdal 2018, eq. 4.4 (from 4.3): rays over an opening so that neighbours are `spacing` apart at `range`: n = opening / (2 atan(spacing / (2 range))) + 1, rounded to the nearest; at least 2.
+std::int64_t rays_for_spacing(double opening, double spacing, double range);
+
+}  // namespace thicket
