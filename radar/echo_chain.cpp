@@ -130,7 +130,7 @@ void trace_echoes(const World& world, std::span<const Material> materials, std::
     const bool was_matter = wave.is_matter(before), is_matter = wave.is_matter(medium);
     if (power >= limits.floor_power && range >= limits.range_min && (was_matter || is_matter)) {
       const Edge edge = !was_matter ? Edge::front : is_matter ? Edge::inner : Edge::back;
-      echoes.push_back({range, static_cast<float>(std::sqrt(power)), static_cast<float>(cosine), edge});
+      echoes.push_back({range, static_cast<float>(std::sqrt(power)), static_cast<float>(cosine), 0.0f, edge});
       ++beam.echo_count;
     }
     if (medium != open_space && wave.material(medium).opaque()) {

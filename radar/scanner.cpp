@@ -30,11 +30,11 @@ std::vector<double> azimuths_of(const ScannerSpec& spec) {
 /// What both sensors share: beams in a plane, one ray each, one draw of range noise each.
 class Scanner : public Sensor {
  public:
-  Scanner(const ScannerSpec& spec, std::uint16_t index) : Sensor(spec), index_(index), mount_(mount_of(spec)), azimuths_(azimuths_of(spec)) {
+  Scanner(const ScannerSpec& spec, std::uint16_t index) : Sensor(spec), scanner_(spec), index_(index), mount_(mount_of(spec)), azimuths_(azimuths_of(spec)) {
     for (const double azimuth : azimuths_) directions_.emplace_back(std::cos(azimuth), std::sin(azimuth), 0.0);
   }
 
-  void measure(const Scene& scene, const Pose& vehicle, double time, std::uint64_t number, const Random& random, Scan& scan) const final {
+  void measure(const Scene& scene, const Platform& platform, double time, std::uint64_t number, const Random& random, Scan& scan) const final {
     scan.sensor = index_;
     scan.number = number;
     scan.time = time;
@@ -46,7 +46,7 @@ class Scanner : public Sensor {
     scan.beams.resize(azimuths_.size());
     scan.echoes.clear();
 
-    const Pose sensor = vehicle * mount_;
+    const Pose sensor = platform.pose * mount_;
     const std::vector<Material> as_seen = materials_as_seen(scene.world());
     const std::size_t tasks = (azimuths_.size() + beams_per_task - 1) / beams_per_task;
     if (tasks <= 1) {
@@ -102,6 +102,7 @@ class Scanner : public Sensor {
     }
   }
 
+  ScannerSpec scanner_;
   std::uint16_t index_;
   Pose mount_;
   std::vector<double> azimuths_;
@@ -140,7 +141,9 @@ class ScanningRadar final : public Scanner {
   void trace(const Scene& scene, std::span<const Material> as_seen, std::span<const Ray> rays, std::span<Beam> beams, std::vector<Echo>& echoes) const override {
     const std::span<const Material> materials = as_seen.empty() ? scene.world().materials : as_seen;
     CrossingLists lists;
-    scene.crossings(rays, materials, limits_.budget_db, lists);
+    std::vector<double> losses;
+    for (const Material& m : materials) losses.push_back(m.attenuation_db_per_m);
+    scene.crossings(rays, losses, limits_.budget_db, lists);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       trace_echoes(scene.world(), materials, lists[i], rays[i].direction, limits_, beams[i], echoes);
       Beam& beam = beams[i];
@@ -182,7 +185,9 @@ class Lidar final : public Scanner {
 
   void trace_through_media(const Scene& scene, std::span<const Material> as_seen, std::span<const Ray> rays, std::span<Beam> beams, std::vector<Echo>& echoes) const {
     CrossingLists lists;
-    scene.crossings(rays, as_seen, depth_max_, lists);
+    std::vector<double> losses;
+    for (const Material& m : as_seen) losses.push_back(m.attenuation_db_per_m);
+    scene.crossings(rays, losses, depth_max_, lists);
     LightPath path;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const LightEnd end = path.end(scene.world(), as_seen, lists[i], rays[i].direction, depth_max_);
@@ -197,7 +202,7 @@ class Lidar final : public Scanner {
     beam.end = BeamEnd::stopped;
     if (end.range < spec().range_min_m) return;
     const double cosine = std::min(1.0, std::abs(glm::dot(end.normal, ray.direction)));
-    echoes.push_back({end.range, static_cast<float>(std::sqrt(cosine) * end.through), static_cast<float>(cosine), Edge::front});
+    echoes.push_back({end.range, static_cast<float>(std::sqrt(cosine) * end.through), static_cast<float>(cosine)});
     beam.echo_count = 1;
   }
 
