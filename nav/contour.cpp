@@ -5,23 +5,23 @@
 
 #include <glm/geometric.hpp>
 
+#include "fan.hpp"
+
 namespace thicket {
 
 void read_contour(const Scan& scan, Contour& contour) {
+  constexpr double spacing = 0.035;  // rad, 2 degrees
   contour.clear();
   for (const Beam& beam : scan.beams) {
-    const glm::dvec3 along = scan.mount_orientation * beam.direction;
-    double range = 0.0;
-    if (!beam.starts_inside) {
-      const auto echoes = scan.echoes_of(beam);
-      if (echoes.empty()) {
-        contour.push_back({{0.0, 0.0}, std::numeric_limits<double>::infinity(), std::atan2(along.y, along.x)});
-        continue;
-      }
-      range = echoes.front().range;
-    }
-    const glm::dvec2 at(scan.mount_position + range * along);
-    contour.push_back({at, glm::length(at), std::atan2(at.y, at.x)});
+    const auto echoes = scan.echoes_of(beam);
+    const bool sees = beam.starts_inside || !echoes.empty();
+    const double range = beam.starts_inside || !sees ? 0.0 : echoes.front().range;
+    for_fan(scan, beam, spacing, [&](const glm::dvec3& direction) {
+      const glm::dvec3 along = scan.mount_orientation * direction;
+      if (!sees) return contour.push_back({{0.0, 0.0}, std::numeric_limits<double>::infinity(), std::atan2(along.y, along.x)});
+      const glm::dvec2 at(scan.mount_position + range * along);
+      contour.push_back({at, glm::length(at), std::atan2(at.y, at.x)});
+    });
   }
 }
 

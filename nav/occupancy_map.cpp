@@ -8,12 +8,17 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "fan.hpp"
+
 namespace thicket {
 namespace {
 
 constexpr double units = 32.0;  // log-odds per unit of a cell's value
 int to_units(double probability) { return static_cast<int>(std::lround(units * std::log(probability / (1.0 - probability)))); }
 double to_probability(int value) { return 1.0 / (1.0 + std::exp(-value / units)); }
+
+/// How far a beam has anything to say, m.
+double reach_of(const Scan& scan, const Beam& beam) { return beam.echo_count > 0 ? std::max(beam.sensed_range, scan.echoes_of(beam).back().range) : beam.sensed_range; }
 
 constexpr std::int64_t floor_tile(std::int64_t cell, int bits) { return cell >> bits; }  // arithmetic shift: floors
 
@@ -52,9 +57,12 @@ void OccupancyMap::integrate(const Scan& scan, const Pose& vehicle) {
   const glm::dvec2 corner = glm::dvec2(static_cast<double>(window_.tile.column), static_cast<double>(window_.tile.row)) * static_cast<double>(tile_size);
   const glm::dvec2 from = glm::dvec2(sensor.position) / spec_.resolution_m - corner;
   for (const Beam& beam : scan.beams) {
-    const glm::dvec2 along(sensor.orientation * beam.direction);
-    const double shrink = glm::length(along);  // of a beam that climbs or falls, its plan
-    if (shrink > 1e-9) draw_beam(scan, beam, from, along / shrink, shrink / spec_.resolution_m);
+    // Of a beam with an opening, thin ones that leave no cell out between them.
+    for_fan(scan, beam, 0.7 * spec_.resolution_m / std::max(spec_.resolution_m, reach_of(scan, beam)), [&](const glm::dvec3& direction) {
+      const glm::dvec2 along(sensor.orientation * direction);
+      const double shrink = glm::length(along);  // of a beam that climbs or falls, its plan
+      if (shrink > 1e-9) draw_beam(scan, beam, from, along / shrink, shrink / spec_.resolution_m);
+    });
   }
   apply();
 }
@@ -62,10 +70,7 @@ void OccupancyMap::integrate(const Scan& scan, const Pose& vehicle) {
 /// Puts the window around the sensor, on the tiles' grid, large enough for what the scan reaches.
 void OccupancyMap::place_window(const Scan& scan, const glm::dvec2& sensor) {
   double reach = 0.0;
-  for (const Beam& beam : scan.beams) {
-    reach = std::max(reach, beam.sensed_range);
-    if (beam.echo_count > 0) reach = std::max(reach, scan.echoes_of(beam).back().range);
-  }
+  for (const Beam& beam : scan.beams) reach = std::max(reach, reach_of(scan, beam));
   const auto half = static_cast<std::int64_t>(std::ceil(reach / spec_.resolution_m)) + 2;
   window_.tiles = (2 * half + 1) / tile_size + 2;
   const auto cells = static_cast<std::size_t>(window_.stride() * window_.tiles * tile_size);
@@ -105,7 +110,7 @@ void OccupancyMap::draw_beam(const Scan& scan, const Beam& beam, const glm::dvec
   bool inside = beam.starts_inside;
   for (const Echo& echo : echoes) {
     draw_stretch(echo.range * scale - on_border, inside ? through : free);
-    inside = echo.edge != Edge::back;
+    inside = echo.edge == Edge::front || echo.edge == Edge::inner;
   }
   draw_stretch(beam.sensed_range * scale - (beam.end == BeamEnd::stopped ? on_border : 0.0), inside ? through : free);
   for (const Echo& echo : echoes) {

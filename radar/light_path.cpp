@@ -5,12 +5,12 @@
 
 namespace thicket {
 
-LightEnd LightPath::end(const World& world, std::span<const Material> as_seen, std::span<const Crossing> crossings, const glm::dvec3& direction, double optical_depth_max) {
+LightEnd LightPath::end(const World& world, std::span<const double> extinction_per_m, std::span<const Crossing> crossings, const glm::dvec3& direction, double optical_depth_max) {
   LightEnd surface;
   media_.clear();
   borders_.clear();
   for (const Crossing& crossing : crossings) {
-    const double extinction = as_seen[world.solids[crossing.solid].material].attenuation_db_per_m;
+    const double extinction = extinction_per_m[world.solids[crossing.solid].material];
     if (extinction == infinity) {
       surface = {crossing.enter, crossing.starts_inside ? -direction : crossing.enter_normal, 1.0};
       break;  // they come by range

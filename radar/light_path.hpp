@@ -18,8 +18,8 @@ struct LightEnd {
 /// Follows rays; keeps its memory from one to the next.
 class LightPath {
  public:
-  /// `as_seen`: the world's materials with their light extinction, in 1/m, as attenuation: 0 passes light, infinite is a surface. Where media overlap the highest counts.
-  LightEnd end(const World& world, std::span<const Material> as_seen, std::span<const Crossing> crossings, const glm::dvec3& direction, double optical_depth_max);
+  /// `extinction_per_m`: of the world's materials, in 1/m: 0 passes light, infinite is a surface. Where media overlap the highest counts.
+  LightEnd end(const World& world, std::span<const double> extinction_per_m, std::span<const Crossing> crossings, const glm::dvec3& direction, double optical_depth_max);
 
  private:
   struct Medium {

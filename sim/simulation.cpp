@@ -1,6 +1,7 @@
 #include "thicket/sim/simulation.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <chrono>
 #include <cmath>
@@ -110,6 +111,10 @@ Simulation& Simulation::operator=(const Simulation& other) {
 
 Pose Simulation::vehicle_pose() const { return Pose::planar(vehicle_.pose.position.x, vehicle_.pose.position.y, stage_->mission.start.z_m, vehicle_.pose.yaw); }
 
+Platform Simulation::platform() const {
+  return {vehicle_pose(), vehicle_.speed * glm::dvec3(direction(vehicle_.pose.yaw), 0.0), {0.0, 0.0, vehicle_.turn_rate}};
+}
+
 void Simulation::stop(const std::string& reason) {
   if (!verdict_) verdict_ = {Verdict::Kind::stopped, reason};
 }
@@ -123,26 +128,36 @@ bool Simulation::step() {
 }
 
 void Simulation::sense() {
+  std::vector<std::size_t> due;
   for (std::size_t i = 0; i < stage_->sensors.size(); ++i) {
-    const Sensor& sensor = *stage_->sensors[i];
-    const double due = static_cast<double>(scan_counts_[i]) / sensor.spec().rate_hz;
-    if (time() < due - 1e-9) continue;
+    const double rate = stage_->sensors[i]->spec().rate_hz;
+    if (time() < static_cast<double>(scan_counts_[i]) / rate - 1e-9) continue;
     // A rate above the step's gives one scan a step; the count keeps up with the time, so that the rate is right on average.
-    scan_counts_[i] = std::max(scan_counts_[i] + 1, static_cast<std::uint64_t>(std::floor((time() + 1e-9) * sensor.spec().rate_hz)) + 1);
-    Scan& scan = scans_[i];
-    {
-      const Stopwatch watch(times_.trace);
-      const Random random(static_cast<std::uint64_t>(stage_->mission.seed), static_cast<std::uint16_t>(i));
-      sensor.measure(scene_, vehicle_pose(), time(), scan_counts_[i] - 1, random, scan);
-    }
+    scan_counts_[i] = std::max(scan_counts_[i] + 1, static_cast<std::uint64_t>(std::floor((time() + 1e-9) * rate)) + 1);
+    due.push_back(i);
+  }
+  measure(due);
+  for (const std::size_t i : due) {
     ++totals_.scans;
-    totals_.rays += scan.rays;
+    totals_.rays += scans_[i].rays;
     if (stage_->mission.map.enabled) {
       const Stopwatch watch(times_.map);
-      map_.integrate(scan, vehicle_pose());
+      map_.integrate(scans_[i], vehicle_pose());
     }
     if (i == planning_sensor) decide();
   }
+}
+
+void Simulation::measure(const std::vector<std::size_t>& due) {
+  const Stopwatch watch(times_.trace);
+  const Platform carrier = platform();
+  const auto one = [&](std::size_t d) {
+    const std::size_t i = due[d];
+    const Random random(static_cast<std::uint64_t>(stage_->mission.seed), static_cast<std::uint16_t>(i));
+    stage_->sensors[i]->measure(scene_, carrier, time(), scan_counts_[i] - 1, random, scans_[i]);
+  };
+  if (due.size() == 1) one(0);
+  else tbb::parallel_for(std::size_t{0}, due.size(), one);
 }
 
 void Simulation::decide() {

@@ -12,7 +12,7 @@
 
 namespace thicket {
 
-/// A radar with one beam along its x axis, at the vehicle's origin, that sees and passes whatever a test does not forbid.
+/// A radar with one beam along its x axis, at the vehicle's origin, that sees and passes whatever a test does not forbid, with everything else left out.
 inline ScanningRadarSpec one_beam_radar() {
   ScanningRadarSpec spec;
   spec.position_m = {0.0, 0.0, 0.0};
@@ -22,6 +22,8 @@ inline ScanningRadarSpec one_beam_radar() {
   spec.penetration_budget_db = infinity;
   spec.detection_floor_db = -300.0;
   spec.slab_max_m = 0.0;
+  spec.scattering = "lambert";
+  spec.fresnel = false;
   return spec;
 }
 

@@ -102,10 +102,10 @@ TEST_CASE("presets and types that are wrong, missing, or do not fit") {
   CHECK(faults_of("preset = \"utm30lx\"\ntype = \"scanning_radar\"") ==
         "s.toml:2:8: 'type' is 'scanning_radar', but the preset is of type 'lidar': leave one of them out");
   CHECK(faults_of("type = \"lidra\"") ==
-        "s.toml:1:8: 'type' is 'lidra', expected one of 'scanning_radar', 'lidar' (did you mean 'lidar'?)");
-  CHECK(faults_of("type = true") == "s.toml:1:8: 'type' is true or false, expected one of 'scanning_radar', 'lidar'");
+        "s.toml:1:8: 'type' is 'lidra', expected one of 'scanning_radar', 'lobe_radar', 'lidar' (did you mean 'lidar'?)");
+  CHECK(faults_of("type = true") == "s.toml:1:8: 'type' is true or false, expected one of 'scanning_radar', 'lobe_radar', 'lidar'");
   CHECK(faults_of("name = \"x\"") ==
-        "s.toml:1:1: [[sensor]] lacks 'type' or 'preset', expected a type of 'scanning_radar', 'lidar', or a preset of 'urg04lx', "
+        "s.toml:1:1: [[sensor]] lacks 'type' or 'preset', expected a type of 'scanning_radar', 'lobe_radar', 'lidar', or a preset of 'urg04lx', "
         "'usarsim2012', 'utm30lx'");
 }
 
@@ -129,7 +129,7 @@ TEST_CASE("bad values of a sensor, with their places") {
         "s.toml:2:22: 'detection_floor_db' is 10, expected a number in dB, at least -300 and at most 0");
   CHECK(faults_of(head + "penetration_budget_db = -1\n") ==
         "s.toml:2:25: 'penetration_budget_db' is -1, expected a number in dB, at least 0");
-  CHECK(faults_of(head + "divergence = \"sides\"\n") == "s.toml:2:14: 'divergence' is 'sides', expected one of 'none', 'side_rays'");
+  CHECK(faults_of(head + "divergence = \"sides\"\n") == "s.toml:2:14: 'divergence' is 'sides', expected one of 'none', 'side_rays', 'cone'");
   CHECK(faults_of(head + "side_geometry = \"paralel\"\n") ==
         "s.toml:2:17: 'side_geometry' is 'paralel', expected one of 'diverging', 'parallel' (did you mean 'parallel'?)");
   CHECK(faults_of(head + "first_echo_only = 1\n") == "s.toml:2:19: 'first_echo_only' is an integer, expected true or false");
@@ -152,6 +152,6 @@ TEST_CASE("a sensor that is written out reads back the same") {
 }
 
 TEST_CASE("defaults by type") {
-  CHECK(sensor_types() == std::vector<std::string>{"scanning_radar", "lidar"});
+  CHECK(sensor_types() == std::vector<std::string>{"scanning_radar", "lobe_radar", "lidar"});
   for (const std::string& type : sensor_types()) CHECK(std::string(sensor_type(default_sensor(type))) == type);
 }

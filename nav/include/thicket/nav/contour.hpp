@@ -16,8 +16,8 @@ struct ContourPoint {
   double bearing = 0.0;           ///< rad in [-pi, pi], counter-clockwise from forward
 };
 
-/// One point a beam: its first echo, projected to the plane. Whatever gives an echo is taken to stop motion: a robot cannot know more. A sensor inside visible matter
-/// gives a point at the sensor.
+/// One point a beam: its first echo, projected to the plane; of a beam with an opening, which may have met it anywhere in there, an arc of points. Whatever gives an echo is taken to stop motion: a
+/// robot cannot know more. A sensor inside visible matter gives a point at the sensor.
 using Contour = std::vector<ContourPoint>;
 
 /// `contour` is overwritten; its memory is used again.

@@ -44,7 +44,7 @@ struct CellIndex {
 /// Log-odds in 8 bits, in tiles that exist only where something was seen. Copies share tiles until one of them writes.
 ///
 /// One scan updates each cell once: occupied (an echo lies in it) before sensed through before free. Free is what a beam passed in the open, sensed through what it
-/// passed between the edges of matter; behind the end of a beam nothing is said. In units of 1/32, log-odds of a cell rise by logit(probability_hit)
+/// passed between the edges of matter; behind the end of a beam nothing is said. A beam with an opening counts as a fan of thin ones, whose arc of echoes is all occupied. In units of 1/32, log-odds of a cell rise by logit(probability_hit)
 /// or fall by logit(probability_miss), between the clamps (Moravec & Elfes 1985 in the log-odds form of Thrun 2003; clamping as OctoMap, 2013).
 class OccupancyMap {
  public:

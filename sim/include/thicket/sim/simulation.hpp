@@ -71,6 +71,7 @@ class Simulation {
   std::uint64_t steps() const { return steps_; }
   const DifferentialDrive& vehicle() const { return vehicle_; }
   Pose vehicle_pose() const;  ///< in space, on the start's height
+  Platform platform() const;  ///< the same with how it moves, for sensors
   const Clearance& clearance() const { return clearance_; }  ///< as last looked for: not while nothing can be nearer than the least so far, and not much farther than that
   const RunTotals& totals() const { return totals_; }
   const PhaseTimes& phase_times() const { return times_; }
@@ -86,6 +87,7 @@ class Simulation {
   Simulation(std::shared_ptr<const Stage> stage, std::unique_ptr<Planner> planner);
 
   void sense();
+  void measure(const std::vector<std::size_t>& due);
   void decide();
   void move();
   void check_limits();

@@ -1,0 +1,146 @@
+// A ray's way through matter: stretches of one medium, and the surfaces between them. Private to the room.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "thicket/worlds/scene.hpp"
+#include "wave.hpp"
+
+namespace thicket {
+
+/// Where the medium changes. Null is the open.
+struct Surface {
+  double range = 0.0;
+  const WaveMaterial* before = nullptr;
+  const WaveMaterial* after = nullptr;
+  const WaveMaterial* reflector = nullptr;  ///< the denser side
+  std::uint32_t solid = no_solid;           ///< the reflector's
+  glm::dvec3 normal{0.0};                   ///< unit; either side
+  double cosine = 1.0;                      ///< of incidence, 0...1
+  double slab = 0.0;                        ///< m, thickness of the slab that this is, with the open on both sides; 0: an interface
+  double slab_path = 0.0;                   ///< m, way through the slab
+};
+
+/// Walks along the crossings of a ray. At every point the solid of highest attenuation counts.
+class MediumWalk {
+ public:
+  /// `slab_max`: thickness in m up to which a solid in the open that has two parallel faces is one surface, with the open behind it; 0: none is.
+  MediumWalk(const World& world, std::span<const WaveMaterial> materials, double slab_max) : world_(world), materials_(materials), slab_max_(slab_max) {}
+
+  /// What the ray starts in; null is the open.
+  const WaveMaterial* start(std::span<const Crossing> crossings) {
+    crossings_ = crossings;
+    events_.clear();
+    active_.clear();
+    for (std::uint32_t i = 0; i < crossings.size(); ++i) {
+      if (crossings[i].starts_inside) active_.push_back(i);
+      else events_.push_back({crossings[i].enter, i, true});
+      events_.push_back({crossings[i].leave, i, false});
+    }
+    std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) {
+      if (a.range != b.range) return a.range < b.range;
+      return a.crossing != b.crossing ? a.crossing < b.crossing : a.enters > b.enters;
+    });
+    medium_ = strongest();
+    return material(medium_);
+  }
+
+  /// After `start`: calls `stretch(material, from, to)` for each stretch that lies in matter, and `surface(Surface)` where the medium changes, in order, as far as range_max; ends where one of them
+  /// returns false.
+  template <class Stretch, class OnSurface>
+  void walk(const glm::dvec3& direction, double range_max, Stretch&& stretch, OnSurface&& on_surface) {
+    double at = 0.0;
+    for (std::size_t e = 0; e < events_.size();) {
+      const double range = events_[e].range;
+      if (medium_ != open_space && !stretch(*material(medium_), at, std::min(range, range_max))) return;
+      if (range > range_max) return;
+      // Everything that begins or ends here happens at once: two solids that share a face have no gap between them.
+      const Event first = events_[e];
+      for (; e < events_.size() && events_[e].range <= range + same_place; ++e) {
+        if (events_[e].enters) active_.push_back(events_[e].crossing);
+        else std::erase(active_, events_[e].crossing);
+      }
+      const std::uint32_t before = medium_;
+      medium_ = strongest();
+      at = range;
+      if (same(before, medium_)) continue;
+      Surface surface = surface_at(range, before, first, direction);
+      if (slab_max_ > 0.0 && before == open_space && e < events_.size() && is_slab(events_[e], e, surface)) {
+        surface.slab_path = events_[e].range - range;
+        surface.slab = surface.slab_path * surface.cosine;
+        surface.after = nullptr;
+        at = events_[e].range;
+        active_.clear();
+        medium_ = open_space;
+        ++e;
+      }
+      if (!on_surface(surface)) return;
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t open_space = ~0u;
+  /// Faces nearer to one another than this touch: the numbers of two solids that share a face meet only to rounding.
+  static constexpr double same_place = 1e-9;  // m
+
+  /// An end of a crossing.
+  struct Event {
+    double range;
+    std::uint32_t crossing;
+    bool enters;
+  };
+
+  std::uint32_t material_index(std::uint32_t c) const { return world_.solids[crossings_[c].solid].material; }
+  const WaveMaterial* material(std::uint32_t c) const { return c == open_space ? nullptr : &materials_[material_index(c)]; }
+  bool same(std::uint32_t a, std::uint32_t b) const {
+    if (a == open_space || b == open_space) return a == b;
+    return material_index(a) == material_index(b);
+  }
+  double density(std::uint32_t c) const { return c == open_space ? 0.0 : material(c)->density; }
+
+  /// The crossing that counts among those that are active; crossings come in a fixed order, so ties are settled the same way every time.
+  std::uint32_t strongest() const {
+    std::uint32_t best = open_space;
+    for (const std::uint32_t c : active_)
+      if (best == open_space || density(c) > density(best) || (density(c) == density(best) && material_index(c) < material_index(best))) best = c;
+    return best;
+  }
+
+  Surface surface_at(double range, std::uint32_t before, const Event& first, const glm::dvec3& direction) const {
+    const bool denser_behind = density(medium_) > density(before) || before == open_space;
+    const std::uint32_t reflector = denser_behind && medium_ != open_space ? medium_ : before;
+    const Crossing& crossing = crossings_[reflector];
+    const auto here = [range](double end) { return std::abs(end - range) <= same_place; };
+    Surface surface{range, material(before), material(medium_), material(reflector), crossing.solid};
+    surface.normal = here(crossing.enter) && !crossing.starts_inside ? crossing.enter_normal : here(crossing.leave) ? crossing.leave_normal : glm::dvec3(0.0);
+    if (surface.normal == glm::dvec3(0.0)) {  // the reflector goes on: the surface is the other solid's
+      const Crossing& other = crossings_[first.crossing];
+      surface.normal = first.enters ? other.enter_normal : other.leave_normal;
+    }
+    surface.cosine = std::min(1.0, std::abs(glm::dot(surface.normal, direction)));
+    return surface;
+  }
+
+  /// Whether the medium that was just entered from the open is left by the next event into the open again, through a face parallel to the first.
+  bool is_slab(const Event& next, std::size_t e, const Surface& surface) const {
+    if (active_.size() != 1 || next.enters || next.crossing != active_[0] || material(medium_)->opaque() || material(medium_)->crown()) return false;
+    const Crossing& crossing = crossings_[active_[0]];
+    const bool alone = e + 1 == events_.size() || events_[e + 1].range > next.range + same_place;
+    return alone && (next.range - surface.range) * surface.cosine <= slab_max_ && glm::dot(crossing.enter_normal, crossing.leave_normal) < -0.999;
+  }
+
+  const World& world_;
+  std::span<const WaveMaterial> materials_;
+  double slab_max_;
+  std::span<const Crossing> crossings_;
+  std::vector<Event> events_;            // scratch, used again for each ray
+  std::vector<std::uint32_t> active_;
+  std::uint32_t medium_ = open_space;
+};
+
+}  // namespace thicket

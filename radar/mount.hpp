@@ -1,0 +1,38 @@
+// Where a sensor sits on its vehicle. Private to the room.
+#pragma once
+
+#include "thicket/base/pose.hpp"
+#include "thicket/radar/sensor.hpp"
+
+namespace thicket {
+
+inline Pose mount_of(const MountedSpec& spec) {
+  Pose mount = Pose::planar(spec.position_m.x, spec.position_m.y, spec.position_m.z, radians(spec.yaw_deg));
+  if (spec.pitch_deg != 0.0) mount.orientation = mount.orientation * glm::angleAxis(radians(spec.pitch_deg), glm::dvec3(0.0, 1.0, 0.0));
+  if (spec.roll_deg != 0.0) mount.orientation = mount.orientation * glm::angleAxis(radians(spec.roll_deg), glm::dvec3(1.0, 0.0, 0.0));
+  return mount;
+}
+
+/// What a scan says of itself; its beams and echoes are empty afterwards.
+inline void head(const MountedSpec& spec, const Pose& mount, std::uint16_t sensor, double time, std::uint64_t number, Scan& scan) {
+  scan.sensor = sensor;
+  scan.number = number;
+  scan.time = time;
+  scan.mount_position = mount.position;
+  scan.mount_orientation = mount.orientation;
+  scan.range_min = spec.range_min_m;
+  scan.range_max = spec.range_max_m;
+  scan.azimuth_opening = scan.elevation_opening = 0.0;
+  scan.rays = 0;
+  scan.beams.clear();
+  scan.echoes.clear();
+  scan.profiles.bins = 0;
+}
+
+/// One draw of range noise for a beam, the jitter of its trigger: its echoes keep their order and their distances.
+inline void shift_beam(Beam& beam, std::span<Echo> echoes, double shift, double range_max) {
+  for (Echo& echo : echoes) echo.range = std::clamp(echo.range + shift, 0.0, range_max);
+  if (beam.end != BeamEnd::open) beam.sensed_range = std::clamp(beam.sensed_range + shift, 0.0, range_max);
+}
+
+}  // namespace thicket

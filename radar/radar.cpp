@@ -1,0 +1,376 @@
+// The radars: what rays return becomes beams, or goes through a receiver.
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "antenna.hpp"
+#include "mount.hpp"
+#include "ray_tracer.hpp"
+#include "receiver.hpp"
+#include "sensors.hpp"
+
+namespace thicket {
+namespace {
+
+/// Rays are traced in tasks of this many, whatever the number of threads; fewer stay on one core, since starting the others costs more than it saves (measured, tests/bench).
+constexpr std::size_t rays_per_task = 512;
+
+/// How wide, in cells, the specular lobe of a mirror is taken at least (`spread`): narrow enough to fade with the tilt, wide enough that a regular grid of rays sums it to 0.02 dB.
+constexpr double lobe_in_cells = 0.8;
+
+/// Which of the rays of a row of a beam give what it returns.
+enum class Choice { all, equal, incidence, strongest };
+
+Choice choice_of(const ScanningRadarSpec& spec) {
+  if (spec.divergence != "side_rays" || spec.side_choice == "sum") return Choice::all;
+  return spec.side_choice == "equal" ? Choice::equal : spec.side_choice == "incidence" ? Choice::incidence : Choice::strongest;
+}
+
+/// What both kinds of radars hold.
+struct Parts {
+  MountedSpec mounted;
+  RadarSpec wave;
+  ReceiverSpec receiver;
+  Antenna antenna;
+  Choice choice = Choice::all;
+  std::size_t row = 1;           ///< rays of a row, of which one is chosen
+  bool ray_beams = false;        ///< traced, every ray is a beam of its own (a lobe)
+  bool first_echo_only = false;
+};
+
+class Radar final : public Sensor {
+ public:
+  Radar(Parts parts, std::uint16_t index)
+      : Sensor(parts.mounted), p_(std::move(parts)), index_(index), mount_(mount_of(p_.mounted)), received_(p_.receiver.echoes == "receiver"), jitter_(p_.wave.sampling == "jitter"),
+        printed_(p_.wave.law == "printed"), receiver_(p_.receiver, p_.wave, p_.mounted.range_min_m, p_.mounted.range_max_m), floor_power_(std::pow(10.0, 0.1 * p_.wave.detection_floor_db)) {
+    double printed_sum = 0.0;
+    for (const SubRay& ray : p_.antenna.rays()) {
+      const double gain = p_.antenna.gain(ray.azimuth, ray.elevation);
+      SentRay& sent = pattern_.emplace_back();
+      sent.direction = direction_of(ray.azimuth, ray.elevation);
+      sent.spread = lobe_in_cells * std::max(ray.azimuth_cell, ray.elevation_cell);
+      sent.gain = gain;
+      sent.share = ray.share;
+      sent.side = ray.side;
+      printed_sum += gain / sent.direction.x;
+    }
+    printed_unit_ = 1.0 / printed_sum;
+    resolution_ = p_.receiver.bandwidth_ghz > 0.0 ? 0.5 * light_speed / (1e9 * p_.receiver.bandwidth_ghz) : p_.receiver.bin_size_m;
+  }
+
+  bool detects(const Material& material) const override {
+    const WaveMaterial wave = wave_material(material, p_.wave, floor_power_);
+    return wave.visible && (!received_ || wave.reflectivity >= receiver_.floor_power());
+  }
+
+  void measure(const Scene& scene, const Platform& platform, double time, std::uint64_t number, const Random& random, Scan& scan) const override {
+    head(spec(), mount_, index_, time, number, scan);
+    const Pose sensor = platform.pose * mount_;
+    const glm::dvec3 velocity = platform.velocity + glm::cross(platform.turn_rate, sensor.position - platform.pose.position);
+    const TraceContext context(scene, p_.wave, spec().range_min_m, spec().range_max_m, p_.antenna, sensor, velocity, random, number);
+
+    const std::size_t count = p_.antenna.beam_azimuths().size() * rays_per_beam();
+    std::vector<SentRay> sent(count);
+    std::vector<Traced> traced((count + rays_per_task - 1) / rays_per_task);
+    const glm::dmat3 turn = glm::mat3_cast(sensor.orientation);
+    const auto task = [&](std::size_t t) {
+      const std::size_t first = t * rays_per_task, end = std::min(count, first + rays_per_task);
+      for (std::size_t i = first; i < end; ++i) sent[i] = sent_ray(i, sensor, turn, random, number);
+      trace_rays(context, std::span(sent).subspan(first, end - first), traced[t]);
+    };
+    if (traced.size() == 1) task(0);
+    else tbb::parallel_for(std::size_t{0}, traced.size(), task);
+    for (const Traced& part : traced) scan.rays += part.count;
+
+    const Result result{sent, traced};
+    if (received_) receive(context, result, scan);
+    else if (p_.ray_beams || rays_per_beam() == 1) take_rays_as_beams(result, turn, scan);
+    else join_rays(result, random, number, scan);
+    if (!received_) finish_beams(random, scan);
+  }
+
+ private:
+  /// The rays of a scan and what came of them.
+  struct Result {
+    const std::vector<SentRay>& sent;
+    const std::vector<Traced>& traced;
+
+    const RayEnd& end(std::size_t ray) const { return traced[ray / rays_per_task].rays[ray % rays_per_task]; }
+    std::span<const Echo> echoes(std::size_t ray) const {
+      const RayEnd& e = end(ray);
+      return std::span(traced[ray / rays_per_task].echoes).subspan(e.first_echo, e.echo_count);
+    }
+  };
+
+  static glm::dvec3 direction_of(double azimuth, double elevation) {
+    return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
+  }
+
+  std::size_t rays_per_beam() const { return p_.choice == Choice::equal ? pattern_.size() / p_.row : pattern_.size(); }
+
+  /// Which ray of the pattern is meant by the `slot`-th ray of a beam.
+  std::size_t pattern_index(std::size_t beam, std::size_t slot, const Random& random, std::uint64_t number) const {
+    if (p_.choice != Choice::equal) return slot;
+    // Choose first, trace one (2012: each of the three rays has an equal chance to give the range).
+    const double chance = random.uniform(number, static_cast<std::uint32_t>(beam), RandomUse::ray_choice, static_cast<std::uint32_t>(slot))[0];
+    return slot * p_.row + std::min(p_.row - 1, static_cast<std::size_t>(chance * static_cast<double>(p_.row)));
+  }
+
+  SentRay sent_ray(std::size_t ray, const Pose& sensor, const glm::dmat3& turn, const Random& random, std::uint64_t number) const {
+    const std::size_t beam = ray / rays_per_beam(), which = pattern_index(beam, ray % rays_per_beam(), random, number);
+    SentRay sent = pattern_[which];
+    const SubRay& middle = p_.antenna.rays()[which];
+    sent.number = static_cast<std::uint32_t>(beam * pattern_.size() + which);
+    sent.beam_azimuth = p_.antenna.beam_azimuths()[beam];
+    double azimuth = middle.azimuth, elevation = middle.elevation;
+    if (jitter_) {
+      const auto u = random.uniform(number, static_cast<std::uint32_t>(beam), RandomUse::sampling, static_cast<std::uint32_t>(which / 2));
+      const SubRay placed = p_.antenna.jittered(middle, which % 2 ? std::array{u[2], u[3]} : std::array{u[0], u[1]});
+      azimuth = placed.azimuth;
+      elevation = placed.elevation;
+      sent.share = placed.share;
+      sent.gain = p_.antenna.gain(azimuth, elevation);
+    }
+    const bool middle_of_axis = !jitter_ && sent.beam_azimuth == 0.0;
+    const glm::dvec3 local = middle_of_axis ? sent.direction : direction_of(sent.beam_azimuth + azimuth, elevation);
+    sent.direction = turn * local;
+    sent.origin = sensor.position;
+    if (middle.lateral != 0.0) sent.origin += turn * (middle.lateral * glm::dvec3(-std::sin(sent.beam_azimuth), std::cos(sent.beam_azimuth), 0.0));
+    return sent;
+  }
+
+  Beam beam_towards(double azimuth, double elevation) const {
+    Beam beam;
+    beam.azimuth = azimuth;
+    beam.elevation = elevation;
+    beam.direction = direction_of(azimuth, elevation);
+    return beam;
+  }
+
+  /// Appends a beam and its echoes.
+  static void add_beam(Beam beam, std::span<const Echo> echoes, Scan& scan) {
+    beam.first_echo = static_cast<std::uint32_t>(scan.echoes.size());
+    beam.echo_count = static_cast<std::uint32_t>(echoes.size());
+    scan.echoes.insert(scan.echoes.end(), echoes.begin(), echoes.end());
+    scan.beams.push_back(beam);
+  }
+
+  void take_rays_as_beams(const Result& result, const glm::dmat3& turn, Scan& scan) const {
+    scan.beams.reserve(result.sent.size());
+    for (std::size_t i = 0; i < result.sent.size(); ++i) {
+      const SentRay& sent = result.sent[i];
+      const RayEnd& end = result.end(i);
+      Beam beam = beam_towards(sent.beam_azimuth, 0.0);
+      if (p_.ray_beams) {
+        beam.direction = jitter_ ? glm::transpose(turn) * sent.direction : pattern_[i].direction;
+        beam.azimuth = std::atan2(beam.direction.y, beam.direction.x);
+        beam.elevation = std::asin(std::clamp(beam.direction.z, -1.0, 1.0));
+      }
+      beam.side = sent.side;
+      beam.sensed_range = end.sensed_range;
+      beam.end = end.end;
+      beam.starts_inside = end.starts_inside;
+      add_beam(beam, result.echoes(i), scan);
+    }
+  }
+
+  /// What a ray's echo counts for in its beam: a power, or under the printed law an amplitude.
+  double strength(const SentRay& sent, const Echo& echo) const {
+    const double amplitude = echo.amplitude;
+    return printed_ ? printed_unit_ * sent.gain * amplitude : sent.share * amplitude * amplitude;
+  }
+
+  /// The rays of a beam that count: all, or one of each row.
+  void choose_rays(const Result& result, std::size_t beam, const Random& random, std::uint64_t number, std::vector<std::size_t>& chosen) const {
+    chosen.clear();
+    const std::size_t first = beam * rays_per_beam(), end = first + rays_per_beam();
+    if (p_.choice == Choice::all || p_.choice == Choice::equal) {
+      for (std::size_t ray = first; ray < end; ++ray) chosen.push_back(ray);
+      return;
+    }
+    for (std::size_t row = first; row < end; row += p_.row) {
+      // The weight of a ray: how squarely it meets its first surface (one that meets none, as if squarely), or how strong its strongest echo is.
+      std::size_t best = row;
+      double sum = 0.0;
+      std::vector<double> weights(p_.row);
+      for (std::size_t i = 0; i < p_.row; ++i) {
+        const auto echoes = result.echoes(row + i);
+        if (p_.choice == Choice::incidence) weights[i] = echoes.empty() ? 1.0 : static_cast<double>(echoes.front().incidence_cosine);
+        else
+          for (const Echo& echo : echoes) weights[i] = std::max(weights[i], static_cast<double>(echo.amplitude));
+        if (weights[i] > weights[best - row]) best = row + i;
+        sum += weights[i];
+      }
+      if (p_.choice == Choice::incidence) {
+        double chance = sum * random.uniform(number, static_cast<std::uint32_t>(beam), RandomUse::ray_choice, static_cast<std::uint32_t>((row - first) / p_.row))[0];
+        best = row;
+        for (std::size_t i = 0; i + 1 < p_.row && chance >= weights[i]; ++i, ++best) chance -= weights[i];
+      }
+      chosen.push_back(best);
+    }
+  }
+
+  /// How much a chosen ray stands for: for its whole row, where one was chosen of it.
+  double standing_for() const { return p_.choice == Choice::all ? 1.0 : static_cast<double>(p_.row); }
+
+  /// Beams of several rays: echoes that the receiver's bandwidth does not tell apart are one.
+  void join_rays(const Result& result, const Random& random, std::uint64_t number, Scan& scan) const {
+    struct Member {
+      Echo echo;
+      double strength;
+    };
+    std::vector<std::size_t> chosen;
+    std::vector<Member> members;
+    std::vector<Echo> joined;
+    for (std::size_t b = 0; b < p_.antenna.beam_azimuths().size(); ++b) {
+      choose_rays(result, b, random, number, chosen);
+      Beam beam = beam_towards(p_.antenna.beam_azimuths()[b], 0.0);
+      beam.side = chosen.size() == 1 ? result.sent[chosen[0]].side : std::int8_t{0};
+      members.clear();
+      for (const std::size_t ray : chosen) {
+        const RayEnd& end = result.end(ray);
+        if (ray == chosen[0] || end.sensed_range > beam.sensed_range) {
+          beam.sensed_range = end.sensed_range;
+          beam.end = end.end;
+        }
+        beam.starts_inside = beam.starts_inside || end.starts_inside;
+        for (const Echo& echo : result.echoes(ray)) members.push_back({echo, standing_for() * strength(result.sent[ray], echo)});
+      }
+      std::stable_sort(members.begin(), members.end(), [](const Member& x, const Member& y) { return x.echo.range < y.echo.range; });
+      joined.clear();
+      for (std::size_t i = 0; i < members.size();) {
+        const std::size_t first = i;
+        std::size_t strongest = i;
+        double sum = 0.0, range = 0.0, cosine = 0.0, velocity = 0.0;
+        for (; i < members.size() && members[i].echo.range - members[first].echo.range <= (chosen.size() > 1 ? resolution_ : 0.0); ++i) {
+          const auto& [echo, strength] = members[i];
+          if (strength > members[strongest].strength) strongest = i;
+          sum += strength;
+          range += strength * echo.range;
+          cosine += strength * static_cast<double>(echo.incidence_cosine);
+          velocity += strength * static_cast<double>(echo.radial_velocity);
+        }
+        const double amplitude = printed_ ? sum : std::sqrt(sum);
+        if (!(sum > 0.0) || amplitude * amplitude < floor_power_) continue;
+        Echo echo = members[strongest].echo;
+        echo.amplitude = static_cast<float>(amplitude);
+        if (i - first > 1) {
+          echo.range = range / sum;
+          echo.incidence_cosine = static_cast<float>(cosine / sum);
+          echo.radial_velocity = static_cast<float>(velocity / sum);
+        }
+        joined.push_back(echo);
+      }
+      add_beam(beam, joined, scan);
+    }
+  }
+
+  /// As the receiver sees it: a profile for each beam, and its detections.
+  void receive(const TraceContext& context, const Result& result, Scan& scan) const {
+    const std::size_t beams = p_.antenna.beam_azimuths().size();
+    receiver_.start(beams, scan.profiles);
+    std::vector<std::vector<Echo>> detections(beams);
+    const Ground ground = p_.receiver.floor_gate ? ground_below(context) : Ground{};
+    const auto one_beam = [&](std::size_t b) {
+      std::vector<std::size_t> chosen;
+      std::vector<Return> returns, from_ground;
+      choose_rays(result, b, context.random, context.scan, chosen);
+      returns.reserve(2 * chosen.size());
+      for (const std::size_t ray : chosen) {
+        for (const Echo& echo : result.echoes(ray))
+          returns.push_back({echo.range, static_cast<float>(standing_for() * strength(result.sent[ray], echo)), echo.radial_velocity});
+        if (ground.material) add_ground(context, ground, result.sent[ray], from_ground);
+      }
+      receiver_.receive(returns, from_ground, context.random, context.scan, static_cast<std::uint32_t>(b), scan.profiles, detections[b]);
+    };
+    if (beams == 1) one_beam(0);
+    else tbb::parallel_for(std::size_t{0}, beams, one_beam);
+    scan.azimuth_opening = p_.antenna.opening().x;
+    scan.elevation_opening = p_.antenna.opening().y;
+    for (std::size_t b = 0; b < beams; ++b) {
+      Beam beam = beam_towards(p_.antenna.beam_azimuths()[b], 0.0);
+      // A receiver cannot tell what stopped the wave: it knows nothing of what lies behind its last detection.
+      beam.end = detections[b].empty() ? BeamEnd::open : BeamEnd::stopped;
+      beam.sensed_range = detections[b].empty() ? spec().range_max_m : detections[b].back().range;
+      add_beam(beam, detections[b], scan);
+    }
+  }
+
+  /// The ground below the sensor, as an altimeter tells it: a plane.
+  struct Ground {
+    double depth = 0.0;                      ///< m below the sensor
+    const WaveMaterial* material = nullptr;  ///< nothing if there is no ground
+  };
+  Ground ground_below(const TraceContext& context) const {
+    const Ray down{context.sensor.position, {0.0, 0.0, -1.0}, infinity};
+    Hit hit;
+    context.scene.closest_hits({&down, 1}, Stops::motion, {&hit, 1});
+    if (hit.solid == no_solid || !(hit.range > 0.0)) return {};
+    return {hit.range, &context.materials[context.scene.world().solids[hit.solid].material]};
+  }
+  /// What a ray would bring back from the ground if nothing else were there.
+  void add_ground(const TraceContext& context, const Ground& ground, const SentRay& sent, std::vector<Return>& returns) const {
+    const double cosine = -sent.direction.z;
+    if (!(cosine > 0.0)) return;
+    const double range = (ground.depth + (sent.origin.z - context.sensor.position.z)) / cosine;
+    if (!(range > 0.0) || range > spec().range_max_m) return;
+    const double ratio = range / spec().range_max_m, back = backscatter(*ground.material, ground.material->reflectivity, cosine, sent.spread);
+    const double power = printed_ ? printed_unit_ * sent.gain * cosine * ratio * ratio * std::sqrt(ground.material->reflectivity)
+                                  : sent.share * back / (p_.wave.range_compensation ? 1.0 : ratio * ratio);
+    returns.push_back({range, static_cast<float>(power), 0.0f});
+  }
+
+  void finish_beams(const Random& random, Scan& scan) const {
+    if (p_.first_echo_only) {
+      for (Beam& beam : scan.beams) {
+        if (beam.echo_count == 0) continue;
+        beam.echo_count = 1;
+        beam.end = BeamEnd::stopped;
+        beam.sensed_range = scan.echoes[beam.first_echo].range;
+      }
+    }
+    if (spec().range_noise_m <= 0.0) return;
+    for (std::size_t b = 0; b < scan.beams.size(); ++b) {
+      const double shift = spec().range_noise_m * random.normal(scan.number, static_cast<std::uint32_t>(b), RandomUse::range_noise, 0)[0];
+      Beam& beam = scan.beams[b];
+      shift_beam(beam, std::span(scan.echoes).subspan(beam.first_echo, beam.echo_count), shift, spec().range_max_m);
+    }
+  }
+
+  Parts p_;
+  std::uint16_t index_;
+  Pose mount_;
+  bool received_, jitter_, printed_;
+  Receiver receiver_;
+  double floor_power_;
+  std::vector<SentRay> pattern_;  ///< of a beam, in its own frame
+  double printed_unit_ = 1.0;     ///< I_m of eq. 4.2: a metal plate at range_max_m that fills the opening squarely is 1 in all
+  double resolution_ = 0.0;       ///< m
+};
+
+template <class Spec>
+Parts parts_of(const Spec& spec) {
+  return {spec, spec, spec, Antenna(spec)};
+}
+
+}  // namespace
+
+std::shared_ptr<const Sensor> make_radar(const ScanningRadarSpec& spec, std::uint16_t index) {
+  Parts parts = parts_of(spec);
+  parts.choice = choice_of(spec);
+  parts.row = spec.divergence == "side_rays" ? 3 : 1;
+  parts.first_echo_only = spec.first_echo_only;
+  return std::make_shared<Radar>(std::move(parts), index);
+}
+
+std::shared_ptr<const Sensor> make_radar(const LobeRadarSpec& spec, std::uint16_t index) {
+  Parts parts = parts_of(spec);
+  parts.ray_beams = true;
+  return std::make_shared<Radar>(std::move(parts), index);
+}
+
+}  // namespace thicket
