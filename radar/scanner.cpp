@@ -6,8 +6,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "antenna.hpp"
 #include "echo_chain.hpp"
 #include "light_path.hpp"
+#include "table.hpp"
 #include "thicket/radar/sensor.hpp"
 
 namespace thicket {
@@ -17,15 +19,6 @@ namespace {
 constexpr std::size_t beams_per_task = 512;
 
 Pose mount_of(const ScannerSpec& spec) { return Pose::planar(spec.position_m.x, spec.position_m.y, spec.position_m.z, radians(spec.yaw_deg)); }
-
-std::vector<double> azimuths_of(const ScannerSpec& spec) {
-  const bool full_circle = spec.fov_deg >= 360.0;
-  const auto steps = static_cast<long>(std::floor(spec.fov_deg / spec.step_deg + 1e-9));
-  const long count = std::max(1L, full_circle ? steps : steps + 1);
-  std::vector<double> azimuths;
-  for (long i = 0; i < count; ++i) azimuths.push_back(radians(spec.step_deg * static_cast<double>(i) - (full_circle ? 180.0 : 0.5 * spec.step_deg * static_cast<double>(count - 1))));
-  return azimuths;
-}
 
 /// What both sensors share: beams in a plane, one ray each, one draw of range noise each.
 class Scanner : public Sensor {
@@ -75,6 +68,9 @@ class Scanner : public Sensor {
   virtual std::vector<Material> materials_as_seen(const World& world) const = 0;
   virtual void trace(const Scene& scene, std::span<const Material> as_seen, std::span<const Ray> rays, std::span<Beam> beams, std::vector<Echo>& echoes) const = 0;
 
+  /// Standard deviation, m, of the range of a beam that ends at `range`.
+  virtual double range_noise(double) const { return spec().range_noise_m; }
+
  private:
   void measure_beams(const Scene& scene, std::span<const Material> as_seen, const Pose& sensor, const Random& random, Scan& scan, std::size_t first, std::size_t end,
                      std::vector<Echo>& echoes) const {
@@ -89,10 +85,11 @@ class Scanner : public Sensor {
     }
     const std::span<Beam> beams(scan.beams.data() + first, end - first);
     trace(scene, as_seen, rays, beams, echoes);
-    if (spec().range_noise_m <= 0.0) return;
     for (std::size_t b = first; b < end; ++b) {
+      const double deviation = range_noise(scan.beams[b].sensed_range);
+      if (deviation <= 0.0) continue;
       // One draw a beam, the jitter of its trigger: echoes of one beam keep their order and their distances.
-      const double shift = spec().range_noise_m * random.normal(scan.number, static_cast<std::uint32_t>(b), RandomUse::range_noise, 0)[0];
+      const double shift = deviation * random.normal(scan.number, static_cast<std::uint32_t>(b), RandomUse::range_noise, 0)[0];
       const Beam& beam = scan.beams[b];
       for (std::uint32_t e = 0; e < beam.echo_count; ++e) {
         double& range = echoes[beam.first_echo + e].range;
@@ -162,7 +159,7 @@ class ScanningRadar final : public Scanner {
 
 class Lidar final : public Scanner {
  public:
-  Lidar(const LidarSpec& spec, std::uint16_t index) : Scanner(spec, index), depth_max_(spec.optical_depth_max) {}
+  Lidar(const LidarSpec& spec, std::uint16_t index) : Scanner(spec, index), depth_max_(spec.optical_depth_max), noise_(spec.range_noise_table_m) {}
 
   bool detects(const Material& material) const override { return material.stops_light; }
 
@@ -206,7 +203,10 @@ class Lidar final : public Scanner {
     beam.echo_count = 1;
   }
 
+  double range_noise(double range) const override { return noise_.empty() ? Scanner::range_noise(range) : value_at(noise_, range); }
+
   double depth_max_;
+  std::vector<glm::dvec2> noise_;
 };
 
 }  // namespace
