@@ -36,13 +36,13 @@ std::size_t lines_in(const std::string& text) {
 }  // namespace
 
 TEST_CASE("the presets that are shipped load, each as its own type") {
-  CHECK(sensor_presets() == std::vector<std::string>{"urg04lx", "usarsim2012", "utm30lx"});
+  CHECK(sensor_presets() == std::vector<std::string>{"k2pi", "navtech", "urg04lx", "usarsim2012", "utm30lx", "x4m05"});
   for (const std::string& name : sensor_presets()) {
     CAPTURE(name);
     const Reading reading = read("preset = \"" + name + "\"");
     CHECK(reading.faults == "");
-    CHECK(std::string(sensor_type(reading.spec)) == (name == "usarsim2012" ? "scanning_radar" : "lidar"));
-    CHECK(make_sensor(reading.spec, 0) != nullptr);
+    const bool lidar = name == "urg04lx" || name == "utm30lx";
+    CHECK(std::string(sensor_type(reading.spec)) == (lidar ? "lidar" : name == "x4m05" ? "lobe_radar" : "scanning_radar"));
   }
   const Reading urg = read("preset = \"urg04lx\"");
   CHECK(scanner(urg.spec)->fov_deg == 240.0);
@@ -51,6 +51,12 @@ TEST_CASE("the presets that are shipped load, each as its own type") {
   const Reading utm = read("preset = \"utm30lx\"");
   CHECK(mounted(utm.spec).rate_hz == 40.0);
   CHECK(mounted(utm.spec).range_max_m == 30.0);
+  // An accuracy of +-30 mm, of +-50 mm beyond 10 m, is three standard deviations.
+  CHECK(std::get<LidarSpec>(utm.spec).range_noise_table_m == std::vector<glm::dvec2>{{0.1, 0.01}, {10.0, 0.01}, {10.0, 0.016667}, {30.0, 0.016667}});
+  const Reading lobe = read("preset = \"x4m05\"");
+  CHECK(std::get<LobeRadarSpec>(lobe.spec).bin_count == 1536);
+  CHECK(mounted(lobe.spec).range_max_m == doctest::Approx(1536 * 0.0064256).epsilon(1e-4));
+  CHECK(360.0 / scanner(read("preset = \"navtech\"").spec)->step_deg == doctest::Approx(400.0));
   const Reading radar = read("preset = \"usarsim2012\"");
   CHECK(std::get<ScanningRadarSpec>(radar.spec).penetration_budget_db == 10.0);
   CHECK(std::get<ScanningRadarSpec>(radar.spec).divergence == "none");
@@ -96,17 +102,17 @@ TEST_CASE("a preset may be a file of one's own") {
 
 TEST_CASE("presets and types that are wrong, missing, or do not fit") {
   CHECK(faults_of("preset = \"usarsim2021\"") ==
-        "s.toml:1:10: there is no sensor preset 'usarsim2021', expected one of 'urg04lx', 'usarsim2012', 'utm30lx' or a file (did you mean "
+        "s.toml:1:10: there is no sensor preset 'usarsim2021', expected one of 'k2pi', 'navtech', 'urg04lx', 'usarsim2012', 'utm30lx', 'x4m05' or a file (did you mean "
         "'usarsim2012'?)");
   CHECK(faults_of("preset = 5") == "s.toml:1:10: 'preset' is an integer, expected a text in quotes");
   CHECK(faults_of("preset = \"utm30lx\"\ntype = \"scanning_radar\"") ==
         "s.toml:2:8: 'type' is 'scanning_radar', but the preset is of type 'lidar': leave one of them out");
   CHECK(faults_of("type = \"lidra\"") ==
-        "s.toml:1:8: 'type' is 'lidra', expected one of 'scanning_radar', 'lidar' (did you mean 'lidar'?)");
-  CHECK(faults_of("type = true") == "s.toml:1:8: 'type' is true or false, expected one of 'scanning_radar', 'lidar'");
+        "s.toml:1:8: 'type' is 'lidra', expected one of 'scanning_radar', 'lobe_radar', 'lidar' (did you mean 'lidar'?)");
+  CHECK(faults_of("type = true") == "s.toml:1:8: 'type' is true or false, expected one of 'scanning_radar', 'lobe_radar', 'lidar'");
   CHECK(faults_of("name = \"x\"") ==
-        "s.toml:1:1: [[sensor]] lacks 'type' or 'preset', expected a type of 'scanning_radar', 'lidar', or a preset of 'urg04lx', "
-        "'usarsim2012', 'utm30lx'");
+        "s.toml:1:1: [[sensor]] lacks 'type' or 'preset', expected a type of 'scanning_radar', 'lobe_radar', 'lidar', or a preset of 'k2pi', "
+        "'navtech', 'urg04lx', 'usarsim2012', 'utm30lx', 'x4m05'");
 }
 
 TEST_CASE("what is wrong with the name of a preset is told once, and not of the keys that it would have had") {
@@ -129,7 +135,7 @@ TEST_CASE("bad values of a sensor, with their places") {
         "s.toml:2:22: 'detection_floor_db' is 10, expected a number in dB, at least -300 and at most 0");
   CHECK(faults_of(head + "penetration_budget_db = -1\n") ==
         "s.toml:2:25: 'penetration_budget_db' is -1, expected a number in dB, at least 0");
-  CHECK(faults_of(head + "divergence = \"sides\"\n") == "s.toml:2:14: 'divergence' is 'sides', expected one of 'none', 'side_rays'");
+  CHECK(faults_of(head + "divergence = \"sides\"\n") == "s.toml:2:14: 'divergence' is 'sides', expected one of 'none', 'side_rays', 'cone'");
   CHECK(faults_of(head + "side_geometry = \"paralel\"\n") ==
         "s.toml:2:17: 'side_geometry' is 'paralel', expected one of 'diverging', 'parallel' (did you mean 'parallel'?)");
   CHECK(faults_of(head + "first_echo_only = 1\n") == "s.toml:2:19: 'first_echo_only' is an integer, expected true or false");
@@ -142,7 +148,10 @@ TEST_CASE("bad values of a sensor, with their places") {
 }
 
 TEST_CASE("a sensor that is written out reads back the same") {
-  for (const SensorSpec& spec : {SensorSpec(ScanningRadarSpec{}), SensorSpec(LidarSpec{}), read("preset = \"urg04lx\"").spec}) {
+  std::vector<SensorSpec> specs;
+  for (const std::string& type : sensor_types()) specs.push_back(default_sensor(type));
+  for (const std::string& preset : sensor_presets()) specs.push_back(read("preset = \"" + preset + "\"").spec);
+  for (const SensorSpec& spec : specs) {
     const std::string text = write_section(sensor_section(spec), sensor_object(spec));
     const Reading back = read("type = \"" + std::string(sensor_type(spec)) + "\"\n" + text);
     CHECK(back.faults == "");
@@ -151,7 +160,13 @@ TEST_CASE("a sensor that is written out reads back the same") {
   }
 }
 
+TEST_CASE("a ray spacing that takes too many rays is told with their number") {
+  const std::string head = "type = \"lobe_radar\"\nrange_max_m = 10\n";
+  CHECK(faults_of(head + "ray_spacing_m = 0.2\n") == "");
+  CHECK(faults_of(head + "ray_spacing_m = 0.001\n") == "s.toml:3:17: 'ray_spacing_m' takes 11346 rays over 65 deg at range_max_m, expected at most 2000");
+}
+
 TEST_CASE("defaults by type") {
-  CHECK(sensor_types() == std::vector<std::string>{"scanning_radar", "lidar"});
+  CHECK(sensor_types() == std::vector<std::string>{"scanning_radar", "lobe_radar", "lidar"});
   for (const std::string& type : sensor_types()) CHECK(std::string(sensor_type(default_sensor(type))) == type);
 }
