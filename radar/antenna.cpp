@@ -84,7 +84,8 @@ Antenna::Antenna(const LobeRadarSpec& spec) : azimuths_{0.0}, lobe_(true), secti
     half_power_ = spec.gain_width_deg ? 0.5 * glm::dvec2(radians(spec.gain_width_deg->x), radians(spec.gain_width_deg->y)) : half_;
   } else if (spec.gain == "table" && !spec.gain_table_db.empty()) {
     gain_ = Gain::table;
-    for (const glm::dvec2& point : spec.gain_table_db) table_.emplace_back(radians(point.x), point.y);
+    const double on_axis = value_at(spec.gain_table_db, 0.0);  // sheets print gains against an isotropic antenna, too
+    for (const glm::dvec2& point : spec.gain_table_db) table_.emplace_back(radians(point.x), point.y - on_axis);
   }
   integrate();
 

@@ -35,11 +35,12 @@ class Antenna {
   /// and nothing to do but when it is jittered.
   std::span<const SubRay> rays() const { return rays_; }
   /// One of `rays` somewhere in its cell, u in (0, 1)^2: its angles and its share are those of that place (so that the mean over u of a sum over rays is the integral over the
-  /// opening). A scanner without an elevation opening stays in its plane, but for a cone, whose rays stay in its disc.
+  /// opening). Without an elevation opening a scanner's ray stays in the plane, but for that of a cone, which is anywhere in its ring of the disc; with one, discs are moved up
+  /// and down over it, and count by the cosine of the elevation of their middles.
   SubRay jittered(const SubRay& ray, const std::array<double, 2>& u) const;
 
-  /// One-way power gain against the axis, 0...1 (a table may say more), towards angles (rad) off a beam's axis; 0 outside the opening. A scanner's opening is here a step wide, and as
-  /// high where it looks along its plane alone.
+  /// One-way power gain against the axis, 0...1 (more, if a table has its top off the axis), towards angles (rad) off a beam's axis; 0 outside the opening. A scanner's opening is
+  /// here a step wide, and as high where it looks along its plane alone.
   double gain(double azimuth, double elevation) const;
   /// The same for a direction in the frame of a beam (x along its axis, y left, z up), any length > 0.
   double gain(const glm::dvec3& direction) const;

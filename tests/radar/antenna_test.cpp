@@ -139,15 +139,22 @@ TEST_CASE("solid angles in closed form") {
 }
 
 TEST_CASE("directivity of the X4M05") {
-  // Its sheet says 5.97 dB. Cut at its -3 dB width the lobe must have more, for what it sends aside is left out.
-  const double directivity_db = 10.0 * std::log10(Antenna(lobe(65.0, 65.0, 58, 58, "gaussian")).directivity());
-  MESSAGE("X4M05, cut at 65 degrees: " << directivity_db << " dB");
-  LobeRadarSpec uncut = lobe(180.0, 170.0, 58, 58, "gaussian");
+  // A Gaussian of 65 degrees has 9.9 dB. The sheet says 5.97 dB of gain: the other 3.9 dB are losses, and what the real antenna sends elsewhere, as the model does not. Cut at the
+  // opening it has 2.1 dB more, for the rest of the Gaussian is left out.
+  const auto directivity_db = [](const Antenna& antenna) { return 10.0 * std::log10(antenna.directivity()); };
+  LobeRadarSpec uncut = lobe(180.0, 170.0, 4, 4, "gaussian");
   uncut.gain_width_deg = {65.0, 65.0};
-  const double uncut_db = 10.0 * std::log10(Antenna(uncut).directivity());
-  MESSAGE("X4M05, all of the Gaussian: " << uncut_db << " dB");
-  CHECK(directivity_db > uncut_db);
-  CHECK(std::abs(uncut_db - 5.97) < 4.0);
+  CHECK(directivity_db(Antenna(uncut)) == doctest::Approx(9.862).epsilon(1e-4));
+  const Antenna cut(lobe(65.0, 65.0, 58, 58, "gaussian"));
+  CHECK(directivity_db(cut) == doctest::Approx(11.921).epsilon(1e-4));
+  double sum = 0.0;
+  constexpr int n = 1000;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const double azimuth = radians(65.0) * ((i + 0.5) / n - 0.5), elevation = radians(65.0) * ((j + 0.5) / n - 0.5);
+      sum += cut.gain(azimuth, elevation) * std::cos(elevation) * std::pow(radians(65.0) / n, 2);
+    }
+  CHECK(cut.directivity() == doctest::Approx(4.0 * pi / sum).epsilon(1e-6));
 }
 
 TEST_CASE("a Gaussian gain has half its power at half its width") {
@@ -163,21 +170,21 @@ TEST_CASE("a Gaussian gain has half its power at half its width") {
   CHECK(antenna.gain(radians(-50.0), radians(30.0)) == doctest::Approx(1.0 / 256.0).epsilon(1e-13));
 }
 
-TEST_CASE("a gain table is straight in dB over the angle off the axis, and level beyond its ends") {
+TEST_CASE("a gain table is straight in dB over the angle off the axis, level beyond its ends, and against the axis") {
   LobeRadarSpec spec = lobe(120.0, 120.0, 4, 4, "table");
-  spec.gain_table_db = {{5.0, -1.0}, {15.0, -3.0}, {15.0, -10.0}, {35.0, -20.0}};
+  spec.gain_table_db = {{5.0, 6.0}, {15.0, 4.0}, {15.0, -3.0}, {35.0, -13.0}};
   const Antenna antenna(spec);
   const auto db = [&](double azimuth_deg, double elevation_deg) { return 10.0 * std::log10(antenna.gain(radians(azimuth_deg), radians(elevation_deg))); };
-  CHECK(db(0.0, 0.0) == doctest::Approx(-1.0));
-  CHECK(db(0.0, 4.0) == doctest::Approx(-1.0));
-  CHECK(db(10.0, 0.0) == doctest::Approx(-2.0));
-  CHECK(db(0.0, -10.0) == doctest::Approx(-2.0));
-  CHECK(db(14.999999, 0.0) == doctest::Approx(-3.0).epsilon(1e-6));
-  CHECK(db(15.000001, 0.0) == doctest::Approx(-10.0).epsilon(1e-6));
-  CHECK(db(-25.0, 0.0) == doctest::Approx(-15.0));
-  CHECK(db(50.0, 0.0) == doctest::Approx(-20.0));
+  CHECK(db(0.0, 0.0) == doctest::Approx(0.0));
+  CHECK(db(0.0, 4.0) == doctest::Approx(0.0));
+  CHECK(db(10.0, 0.0) == doctest::Approx(-1.0));
+  CHECK(db(0.0, -10.0) == doctest::Approx(-1.0));
+  CHECK(db(14.999999, 0.0) == doctest::Approx(-2.0).epsilon(1e-6));
+  CHECK(db(15.000001, 0.0) == doctest::Approx(-9.0).epsilon(1e-6));
+  CHECK(db(-25.0, 0.0) == doctest::Approx(-14.0));
+  CHECK(db(50.0, 0.0) == doctest::Approx(-19.0));
   // Off the axis both ways: by the angle between the directions, acos(cos 20 cos 20) = 27.99 deg.
-  CHECK(db(20.0, 20.0) == doctest::Approx(-10.0 - 0.5 * (degrees(std::acos(std::pow(std::cos(radians(20.0)), 2))) - 15.0)));
+  CHECK(db(20.0, 20.0) == doctest::Approx(-9.0 - 0.5 * (degrees(std::acos(std::pow(std::cos(radians(20.0)), 2))) - 15.0)));
 }
 
 TEST_CASE("there is no gain outside the opening") {
@@ -240,17 +247,57 @@ TEST_CASE("cells of a lobe are a regular grid, rays in their middles") {
   CHECK(ellipse.rays().size() < 400);
 }
 
-TEST_CASE("jittered rays see on average what there is") {
+TEST_CASE("shares of jittered rays sum to 1 on average") {
   std::uint64_t seed = 100;
   for (const Antenna& antenna : all_kinds()) {
     CAPTURE(seed);
-    const bool fan = antenna.opening().x > 0.0;  // side rays lie twice in the same place: not what the gain says
-    const Estimate shares = seen_by_jitter(antenna, 4000, seed, true), seen = seen_by_jitter(antenna, 4000, seed);
+    const Estimate shares = seen_by_jitter(antenna, 4000, seed++, true);
     CHECK(std::abs(shares.mean - 1.0) <= 4.0 * shares.error + 1e-9);
     CHECK(shares.error < 0.01);
-    if (fan) CHECK(std::abs(seen.mean - seen_by_gain(antenna, antenna.opening().x, antenna.opening().y)) <= 4.0 * seen.error + 2e-4);
-    ++seed;
   }
+}
+
+TEST_CASE("jittered rays see on average what there is") {
+  constexpr double grid = 2e-5;  // of the sum over a grid that they are held against
+  std::uint64_t seed = 200;
+  for (const char* gain : {"flat", "gaussian", "table"})
+    for (const char* section : {"square", "elliptic"}) {
+      CAPTURE(seed);
+      LobeRadarSpec spec = lobe(80.0, 50.0, 9, 6, gain, section);
+      spec.gain_table_db = {{0.0, 0.0}, {20.0, -1.0}, {50.0, -12.0}};
+      const Antenna antenna(spec);
+      const Estimate seen = seen_by_jitter(antenna, 4000, seed++);
+      CHECK(std::abs(seen.mean - seen_by_gain(antenna, radians(80.0), radians(50.0))) <= 4.0 * seen.error + grid);
+    }
+  ScanningRadarSpec spec;
+  spec.step_deg = 10.0;
+  spec.elevation_opening_deg = 40.0;
+  spec.elevation_rays = 5;
+  const Antenna rows(spec);
+  const Estimate of_rows = seen_by_jitter(rows, 4000, seed++);
+  CHECK(std::abs(of_rows.mean - seen_by_gain(rows, radians(10.0), radians(40.0))) <= 4.0 * of_rows.error + grid);
+  spec.divergence = "cone";
+  spec.cone_opening_deg = 20.0;
+  spec.elevation_opening_deg = 0.0;
+  const Antenna cone(spec);
+  const Estimate of_cone = seen_by_jitter(cone, 4000, seed++);
+  // All rays of a cone count alike, a cos(elevation) less than `gain` would have them: 0.4 % of what differs in it.
+  CHECK(std::abs(of_cone.mean - seen_by_gain(cone, radians(20.0), radians(20.0))) <= 4.0 * of_cone.error + 2e-4);
+  // Cones above one another: the mean over the disc and over the height of its middle, by the cosine of the latter.
+  spec.elevation_opening_deg = 40.0;
+  const Antenna cones(spec);
+  const Estimate of_cones = seen_by_jitter(cones, 4000, seed++);
+  double sum = 0.0, weights = 0.0;
+  constexpr int n = 150;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) {
+        const double x = 2.0 * (i + 0.5) / n - 1.0, y = 2.0 * (j + 0.5) / n - 1.0, row = radians(40.0) * ((k + 0.5) / n - 0.5);
+        if (x * x + y * y > 1.0) continue;
+        sum += std::cos(row) * scenery(radians(10.0) * x, row + radians(10.0) * y);
+        weights += std::cos(row);
+      }
+  CHECK(std::abs(of_cones.mean - sum / weights) <= 4.0 * of_cones.error + grid);
 }
 
 TEST_CASE("jittered rays stay in their cells") {
