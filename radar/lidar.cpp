@@ -10,6 +10,7 @@
 #include "light_path.hpp"
 #include "mount.hpp"
 #include "sensors.hpp"
+#include "table.hpp"
 
 namespace thicket {
 namespace {
@@ -44,8 +45,10 @@ class Lidar final : public Sensor {
       Beam& beam = scan.beams[b];
       beam.first_echo = static_cast<std::uint32_t>(scan.echoes.size());
       if (beam.echo_count > 0) scan.echoes.push_back(echoes[b]);
-      if (spec().range_noise_m <= 0.0) continue;
-      const double shift = spec().range_noise_m * random.normal(number, static_cast<std::uint32_t>(b), RandomUse::range_noise, 0)[0];
+      const auto& table = lidar_.range_noise_table_m;
+      const double deviation = table.empty() ? spec().range_noise_m : value_at(table, beam.sensed_range);
+      if (deviation <= 0.0 || beam.echo_count == 0) continue;
+      const double shift = deviation * random.normal(number, static_cast<std::uint32_t>(b), RandomUse::range_noise, 0)[0];
       shift_beam(beam, std::span(scan.echoes).subspan(beam.first_echo, beam.echo_count), shift, spec().range_max_m);
     }
   }

@@ -6,7 +6,9 @@
 #include <array>
 #include <optional>
 
+#include "antenna.hpp"
 #include "thicket/base/files.hpp"
+#include "thicket/base/pose.hpp"
 #include "thicket/base/text.hpp"
 
 namespace thicket {
@@ -225,6 +227,14 @@ SensorSpec read_sensor_at(const Node& entry, Faults& faults, int depth) {
     check_radar(entry, *lobe, *lobe, common.range_max_m, faults);
     check_order(entry, "gain_table_db", lobe->gain_table_db, faults);
     if (lobe->gain == "table" && lobe->gain_table_db.empty()) faults.add(entry.place, "'gain' is 'table', expected its points in 'gain_table_db'");
+    for (const double opening : {lobe->azimuth_opening_deg, lobe->elevation_opening_deg}) {
+      constexpr std::int64_t at_most = 2000;
+      const std::int64_t rays = lobe->ray_spacing_m ? rays_for_spacing(radians(opening), *lobe->ray_spacing_m, common.range_max_m) : 0;
+      if (rays <= at_most) continue;
+      const Node* node = entry.find("ray_spacing_m");
+      faults.add(node ? node->place : entry.place, fmt::format("'ray_spacing_m' takes {} rays over {} deg at range_max_m, expected at most {}", rays, opening, at_most));
+      break;
+    }
   }
   return spec;
 }

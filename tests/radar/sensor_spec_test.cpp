@@ -36,13 +36,13 @@ std::size_t lines_in(const std::string& text) {
 }  // namespace
 
 TEST_CASE("the presets that are shipped load, each as its own type") {
-  CHECK(sensor_presets() == std::vector<std::string>{"urg04lx", "usarsim2012", "utm30lx"});
+  CHECK(sensor_presets() == std::vector<std::string>{"k2pi", "navtech", "urg04lx", "usarsim2012", "utm30lx", "x4m05"});
   for (const std::string& name : sensor_presets()) {
     CAPTURE(name);
     const Reading reading = read("preset = \"" + name + "\"");
     CHECK(reading.faults == "");
-    CHECK(std::string(sensor_type(reading.spec)) == (name == "usarsim2012" ? "scanning_radar" : "lidar"));
-    CHECK(make_sensor(reading.spec, 0) != nullptr);
+    const bool lidar = name == "urg04lx" || name == "utm30lx";
+    CHECK(std::string(sensor_type(reading.spec)) == (lidar ? "lidar" : name == "x4m05" ? "lobe_radar" : "scanning_radar"));
   }
   const Reading urg = read("preset = \"urg04lx\"");
   CHECK(scanner(urg.spec)->fov_deg == 240.0);
@@ -51,6 +51,12 @@ TEST_CASE("the presets that are shipped load, each as its own type") {
   const Reading utm = read("preset = \"utm30lx\"");
   CHECK(mounted(utm.spec).rate_hz == 40.0);
   CHECK(mounted(utm.spec).range_max_m == 30.0);
+  // An accuracy of +-30 mm, of +-50 mm beyond 10 m, is three standard deviations.
+  CHECK(std::get<LidarSpec>(utm.spec).range_noise_table_m == std::vector<glm::dvec2>{{0.1, 0.01}, {10.0, 0.01}, {10.0, 0.016667}, {30.0, 0.016667}});
+  const Reading lobe = read("preset = \"x4m05\"");
+  CHECK(std::get<LobeRadarSpec>(lobe.spec).bin_count == 1536);
+  CHECK(mounted(lobe.spec).range_max_m == doctest::Approx(1536 * 0.0064256).epsilon(1e-4));
+  CHECK(360.0 / scanner(read("preset = \"navtech\"").spec)->step_deg == doctest::Approx(400.0));
   const Reading radar = read("preset = \"usarsim2012\"");
   CHECK(std::get<ScanningRadarSpec>(radar.spec).penetration_budget_db == 10.0);
   CHECK(std::get<ScanningRadarSpec>(radar.spec).divergence == "none");
@@ -96,7 +102,7 @@ TEST_CASE("a preset may be a file of one's own") {
 
 TEST_CASE("presets and types that are wrong, missing, or do not fit") {
   CHECK(faults_of("preset = \"usarsim2021\"") ==
-        "s.toml:1:10: there is no sensor preset 'usarsim2021', expected one of 'urg04lx', 'usarsim2012', 'utm30lx' or a file (did you mean "
+        "s.toml:1:10: there is no sensor preset 'usarsim2021', expected one of 'k2pi', 'navtech', 'urg04lx', 'usarsim2012', 'utm30lx', 'x4m05' or a file (did you mean "
         "'usarsim2012'?)");
   CHECK(faults_of("preset = 5") == "s.toml:1:10: 'preset' is an integer, expected a text in quotes");
   CHECK(faults_of("preset = \"utm30lx\"\ntype = \"scanning_radar\"") ==
@@ -105,8 +111,8 @@ TEST_CASE("presets and types that are wrong, missing, or do not fit") {
         "s.toml:1:8: 'type' is 'lidra', expected one of 'scanning_radar', 'lobe_radar', 'lidar' (did you mean 'lidar'?)");
   CHECK(faults_of("type = true") == "s.toml:1:8: 'type' is true or false, expected one of 'scanning_radar', 'lobe_radar', 'lidar'");
   CHECK(faults_of("name = \"x\"") ==
-        "s.toml:1:1: [[sensor]] lacks 'type' or 'preset', expected a type of 'scanning_radar', 'lobe_radar', 'lidar', or a preset of 'urg04lx', "
-        "'usarsim2012', 'utm30lx'");
+        "s.toml:1:1: [[sensor]] lacks 'type' or 'preset', expected a type of 'scanning_radar', 'lobe_radar', 'lidar', or a preset of 'k2pi', "
+        "'navtech', 'urg04lx', 'usarsim2012', 'utm30lx', 'x4m05'");
 }
 
 TEST_CASE("what is wrong with the name of a preset is told once, and not of the keys that it would have had") {
@@ -142,13 +148,22 @@ TEST_CASE("bad values of a sensor, with their places") {
 }
 
 TEST_CASE("a sensor that is written out reads back the same") {
-  for (const SensorSpec& spec : {SensorSpec(ScanningRadarSpec{}), SensorSpec(LidarSpec{}), read("preset = \"urg04lx\"").spec}) {
+  std::vector<SensorSpec> specs;
+  for (const std::string& type : sensor_types()) specs.push_back(default_sensor(type));
+  for (const std::string& preset : sensor_presets()) specs.push_back(read("preset = \"" + preset + "\"").spec);
+  for (const SensorSpec& spec : specs) {
     const std::string text = write_section(sensor_section(spec), sensor_object(spec));
     const Reading back = read("type = \"" + std::string(sensor_type(spec)) + "\"\n" + text);
     CHECK(back.faults == "");
     CHECK(back.spec.index() == spec.index());
     CHECK(write_section(sensor_section(back.spec), sensor_object(back.spec)) == text);
   }
+}
+
+TEST_CASE("a ray spacing that takes too many rays is told with their number") {
+  const std::string head = "type = \"lobe_radar\"\nrange_max_m = 10\n";
+  CHECK(faults_of(head + "ray_spacing_m = 0.2\n") == "");
+  CHECK(faults_of(head + "ray_spacing_m = 0.001\n") == "s.toml:3:17: 'ray_spacing_m' takes 11346 rays over 65 deg at range_max_m, expected at most 2000");
 }
 
 TEST_CASE("defaults by type") {
