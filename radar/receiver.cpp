@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "thicket/base/pose.hpp"
@@ -28,16 +30,31 @@ constexpr std::uint32_t first_walk_draw = 1u << 23;
 
 constexpr std::size_t up_to_block(std::size_t count) { return (count + block - 1) / block * block; }
 
+/// Four at a time, as every processor of the platform can.
+using Four [[gnu::vector_size(16)]] = float;
+Four load(const float* from) {
+  Four four;
+  std::memcpy(&four, from, sizeof four);
+  return four;
+}
+
 /// The signal of a block of bins: what is in each and before and behind it, as the (symmetrical) pulse weighs it.
 void spread_block(const float* in, std::span<const float> pulse, float* out) {
-  std::array<float, block> sum;
-  for (std::size_t i = 0; i < block; ++i) sum[i] = pulse[0] * in[i];
-  for (std::size_t distance = 1; distance < pulse.size(); ++distance) {
-    const float weight = pulse[distance];
-    const float *before = in - distance, *behind = in + distance;
-    for (std::size_t i = 0; i < block; ++i) sum[i] += weight * (before[i] + behind[i]);
+  static_assert(block == 16);
+  Four a = pulse[0] * load(in), b = pulse[0] * load(in + 4), c = pulse[0] * load(in + 8), d = pulse[0] * load(in + 12);
+  const float *before = in, *behind = in;
+  for (const float weight : pulse.subspan(1)) {
+    --before;
+    ++behind;
+    a += weight * (load(before) + load(behind));
+    b += weight * (load(before + 4) + load(behind + 4));
+    c += weight * (load(before + 8) + load(behind + 8));
+    d += weight * (load(before + 12) + load(behind + 12));
   }
-  for (std::size_t i = 0; i < block; ++i) out[i] = sum[i];
+  std::memcpy(out, &a, sizeof a);
+  std::memcpy(out + 4, &b, sizeof b);
+  std::memcpy(out + 8, &c, sizeof c);
+  std::memcpy(out + 12, &d, sizeof d);
 }
 
 /// Cosine and sine of whole turns, |turns| < 2^50, to 1e-12 (plus the rounding of `turns`). No branches and no calls: several at a time.
@@ -52,12 +69,6 @@ void cosine_and_sine(const std::array<double, phases_at_a_time>& turns, std::arr
     sine[i] = 2.0 * s_half * c_half;
     cosine[i] = 1.0 - 2.0 * s_half * s_half;
   }
-}
-
-/// The bin at or below a place in bins.
-std::int64_t bin_below(double place) {
-  const auto toward_zero = static_cast<std::int64_t>(place);
-  return toward_zero - (static_cast<double>(toward_zero) > place ? 1 : 0);
 }
 
 }  // namespace
@@ -166,52 +177,48 @@ void Receiver::start(std::size_t beams, Profiles& profiles) const {
 bool Receiver::deposit(std::span<const Return> returns, Scratch& scratch) const {
   const std::size_t whole = up_to_block(bins_), length = margin_ + whole + margin_;
   for (std::size_t part = 0; part < parts(); ++part) scratch.added[part].assign(length, 0.0);
-  const auto margin = static_cast<std::int64_t>(margin_), last = static_cast<std::int64_t>(length) - 2;
-  const double last_place = static_cast<double>(bins_) + static_cast<double>(margin_);
-  /// Whether a return counts, and where: the bin in `added`, and how far it is on the way to the next.
-  const auto find_place = [&](double range, std::int64_t& bin, double& share) {
-    const double place = (range - first_range_) / bin_size_;
-    if (!(range >= range_min_ && range <= range_max_ && place < last_place && place > -last_place)) return false;
-    const std::int64_t below = bin_below(place);
-    bin = below + margin;
-    share = place - static_cast<double>(below);
-    return bin >= 0 && bin <= last;
+  // Everything that the loops need, where the compiler sees that the sums do not change it.
+  const double range_min = range_min_, range_max = range_max_, first_range = first_range_, bin_size = bin_size_, margin = static_cast<double>(margin_), end = static_cast<double>(length - 1);
+  /// How many bins from the start of `added` on; negative for what does not count.
+  const auto place_of = [=](double range) {
+    const double place = (range - first_range) / bin_size + margin;
+    return range >= range_min && range <= range_max && place < end ? place : -1.0;
   };
-  bool moves = false;
-  std::int64_t bin = 0;
-  double share = 0.0;
+  std::uint32_t any_velocity = 0;
   if (sum_ != Sum::fields) {
     double* const added = scratch.added[0].data();
     for (const Return& r : returns) {
-      if (!find_place(r.range, bin, share)) continue;
-      const double strength = static_cast<double>(r.strength);
-      added[bin] += strength * (1.0 - share);
-      added[bin + 1] += strength * share;
-      moves |= r.radial_velocity != 0.0f;
+      const double place = place_of(r.range);
+      if (!(place >= 0.0)) continue;
+      const auto bin = static_cast<std::int64_t>(place);
+      const double strength = static_cast<double>(r.strength), farther = strength * (place - static_cast<double>(bin));
+      added[bin] += strength - farther;
+      added[bin + 1] += farther;
+      any_velocity |= std::bit_cast<std::uint32_t>(r.radial_velocity);
     }
   } else {
     double *const in_phase = scratch.added[0].data(), *const quadrature = scratch.added[1].data();
-    std::array<double, phases_at_a_time> turns{}, field, cosine, sine;
+    std::array<double, phases_at_a_time> turns{}, cosine, sine;
     for (std::size_t first = 0; first < returns.size(); first += phases_at_a_time) {
       const auto some = returns.subspan(first, std::min(phases_at_a_time, returns.size() - first));
-      for (std::size_t i = 0; i < some.size(); ++i) {
-        turns[i] = some[i].range * half_waves_per_m_;
-        field[i] = std::sqrt(static_cast<double>(some[i].strength));
-      }
+      for (std::size_t i = 0; i < some.size(); ++i) turns[i] = some[i].range * half_waves_per_m_;
       cosine_and_sine(turns, cosine, sine);
       for (std::size_t i = 0; i < some.size(); ++i) {
-        if (!find_place(some[i].range, bin, share)) continue;
-        const double re = field[i] * cosine[i], im = -field[i] * sine[i];  // the phase falls with the way
-        in_phase[bin] += re * (1.0 - share);
+        const double place = place_of(some[i].range);
+        if (!(place >= 0.0)) continue;
+        const auto bin = static_cast<std::int64_t>(place);
+        const double share = place - static_cast<double>(bin), field = std::sqrt(static_cast<double>(some[i].strength));
+        const double re = field * cosine[i], im = -field * sine[i];  // the phase falls with the way
+        in_phase[bin] += re - re * share;
         in_phase[bin + 1] += re * share;
-        quadrature[bin] += im * (1.0 - share);
+        quadrature[bin] += im - im * share;
         quadrature[bin + 1] += im * share;
-        moves |= some[i].radial_velocity != 0.0f;
+        any_velocity |= std::bit_cast<std::uint32_t>(some[i].radial_velocity);
       }
     }
   }
   for (std::size_t part = 0; part < parts(); ++part) spread(scratch, part);
-  return moves;
+  return any_velocity != 0;
 }
 
 void Receiver::spread(Scratch& scratch, std::size_t part) const {
@@ -272,11 +279,16 @@ void Receiver::smooth(std::vector<float>& values, Scratch& scratch) const {
   sums.resize(bins_ + 1);
   sums[0] = 0.0;
   for (std::size_t i = 0; i < bins_; ++i) sums[i + 1] = sums[i] + static_cast<double>(values[i]);
-  const auto bins = static_cast<std::int64_t>(bins_);
-  for (std::int64_t i = 0; i < bins; ++i) {
-    const std::int64_t from = std::max<std::int64_t>(0, i - smoothed_before_), to = std::min(bins, i + smoothed_after_ + 1);
-    values[static_cast<std::size_t>(i)] = static_cast<float>((sums[static_cast<std::size_t>(to)] - sums[static_cast<std::size_t>(from)]) / static_cast<double>(to - from));
-  }
+  const auto before = static_cast<std::size_t>(smoothed_before_), after = static_cast<std::size_t>(smoothed_after_), bins = std::size_t{bins_};
+  const auto at_edge = [&](std::size_t i) {
+    const std::size_t from = i > before ? i - before : 0, to = std::min(bins, i + after + 1);
+    values[i] = static_cast<float>((sums[to] - sums[from]) / static_cast<double>(to - from));
+  };
+  const std::size_t inner = std::min(before, bins), inner_end = std::max(inner, bins > after ? bins - after : 0);
+  for (std::size_t i = 0; i < inner; ++i) at_edge(i);
+  const double count = static_cast<double>(before + 1 + after);
+  for (std::size_t i = inner; i < inner_end; ++i) values[i] = static_cast<float>((sums[i + after + 1] - sums[i - before]) / count);
+  for (std::size_t i = inner_end; i < bins; ++i) at_edge(i);
 }
 
 void Receiver::amplitude_of_ground(std::span<const Return> ground, Scratch& scratch) const {

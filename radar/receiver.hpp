@@ -47,14 +47,18 @@ class Receiver {
   enum class Sum : std::uint8_t { powers, amplitudes, fields };
   struct Scratch;
 
-  /// Adds up the returns, bin by bin as they are on the way, and gives the signal that the pulse makes of them: powers, amplitudes or fields. Whether any of them moves.
+  /// Adds up the returns and gives the signal that the pulse makes of them: powers, amplitudes or fields. Whether any of them moves.
   bool deposit(std::span<const Return> returns, Scratch& scratch) const;
+  /// The pulse's part of that. A return is shared by the two bins it is between, so that a pulse that is not much longer than a bin is flatter for a return between them.
   void spread(Scratch& scratch, std::size_t part) const;
   void add_noise(const Random& random, std::uint64_t scan, std::uint32_t beam, Scratch& scratch) const;
-  /// The moving average of `values`, in place.
+  /// The moving average of `values`, in place: over as many bins before as behind, of an even number one more before; at the ends over those that there are.
   void smooth(std::vector<float>& values, Scratch& scratch) const;
+  /// What the ground alone would give, without noise and clutter.
   void amplitude_of_ground(std::span<const Return> ground, Scratch& scratch) const;
+  /// Exact where powers are exponential, as those of the noise of I and Q are. The noise of an amplitude is not: rates of 1e-2, 1e-3 and 1e-4 asked for become CFAR_MEASURED.
   void cfar_threshold(std::span<const float> amplitude, std::span<float> threshold, Scratch& scratch) const;
+  /// Tops: bins at which the amplitude reaches the threshold and exceeds what is on either side. Of several bins that are equal, the middle one.
   void detect(std::span<const float> amplitude, std::span<const float> threshold, std::vector<Echo>& detections) const;
   void set_velocities(std::span<const Return> returns, std::span<Echo> tops, Scratch& scratch) const;
   std::size_t parts() const { return sum_ == Sum::fields ? 2 : 1; }
