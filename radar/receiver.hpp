@@ -19,6 +19,8 @@ struct Return {
 };
 
 /// The bins' amplitudes are what the returns make, plus noise, after the moving average and clipped at `saturation`. The noise may make an amplitude of signal "amplitude" negative.
+/// The moving average (with "iq" that of I and Q) is over as many bins before as behind, of an even number one more before; at the ends it is over those that there are.
+/// The random walk starts at 0 before the first bin. Clutter is a power that is added to that of the returns; with "iq" it has a random phase in every bin, so the noise does it.
 class Receiver {
  public:
   /// `wave` gives the frequency, for the phases of I/Q, and the law: under the printed one amplitudes are added, else powers (or, with I/Q, fields with the phase of their way).
@@ -52,11 +54,12 @@ class Receiver {
   /// The pulse's part of that. A return is shared by the two bins it is between, so that a pulse that is not much longer than a bin is flatter for a return between them.
   void spread(Scratch& scratch, std::size_t part) const;
   void add_noise(const Random& random, std::uint64_t scan, std::uint32_t beam, Scratch& scratch) const;
-  /// The moving average of `values`, in place: over as many bins before as behind, of an even number one more before; at the ends over those that there are.
+  /// The moving average of `values`, in place.
   void smooth(std::vector<float>& values, Scratch& scratch) const;
   /// What the ground alone would give, without noise and clutter.
   void amplitude_of_ground(std::span<const Return> ground, Scratch& scratch) const;
-  /// Exact where powers are exponential, as those of the noise of I and Q are. The noise of an amplitude is not: rates of 1e-2, 1e-3 and 1e-4 asked for become CFAR_MEASURED.
+  /// Exact where powers are exponential, as those of the noise of I and Q are. The noise of amplitudes is normal, and the
+  /// rate is that of Student's distribution: with 16 training bins on either side 1.7e-2, 4.6e-3 and 1.3e-3 instead of 1e-2, 1e-3 and 1e-4.
   void cfar_threshold(std::span<const float> amplitude, std::span<float> threshold, Scratch& scratch) const;
   /// Tops: bins at which the amplitude reaches the threshold and exceeds what is on either side. Of several bins that are equal, the middle one.
   void detect(std::span<const float> amplitude, std::span<const float> threshold, std::vector<Echo>& detections) const;
