@@ -19,7 +19,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double pulse_end = 4.3;
 /// No pulse is longer than this either way: that is as many bins as a receiver may have.
 constexpr double longest_pulse_bins = 1e6;
-/// Amplitude against the ground's that a top takes under the floor gate: 6 dB, about what the ground's returns are above those of the smooth ground that is counted on.
+/// Amplitude against that of the ground alone which a top takes under the floor gate: 6 dB, for noise and for ground that is not as smooth as what is counted on.
 constexpr float floor_gate_margin = 2.0f;
 /// Bins whose signal is worked out together; small enough for their sums to stay in registers.
 constexpr std::size_t block = 16;
@@ -178,7 +178,8 @@ bool Receiver::deposit(std::span<const Return> returns, Scratch& scratch) const 
   const std::size_t whole = up_to_block(bins_), length = margin_ + whole + margin_;
   for (std::size_t part = 0; part < parts(); ++part) scratch.added[part].assign(length, 0.0);
   // Everything that the loops need, where the compiler sees that the sums do not change it.
-  const double range_min = range_min_, range_max = range_max_, first_range = first_range_, bin_size = bin_size_, margin = static_cast<double>(margin_), end = static_cast<double>(length - 1);
+  const double range_min = range_min_, range_max = range_max_, first_range = first_range_, bin_size = bin_size_;
+  const double margin = static_cast<double>(margin_), end = static_cast<double>(length - 1);
   /// How many bins from the start of `added` on; negative for what does not count.
   const auto place_of = [=](double range) {
     const double place = (range - first_range) / bin_size + margin;

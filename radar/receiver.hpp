@@ -39,9 +39,9 @@ class Receiver {
 
   /// Standard deviation of the white noise of a bin (per component of I/Q) before smoothing.
   double noise() const { return noise_; }
-  /// The least power that is detected without noise, of a return in the middle of a bin; under the printed law the least amplitude, squared. What it takes after the pulse and the smoothing
-  /// have spread it over bins, on top of the clutter; 0 where the clutter alone is above the threshold, infinite where the saturation is below it. The threshold of CFAR is here that of
-  /// noise and clutter alone, at their mean powers. The floor gate is not in it.
+  /// The least power that is detected without noise, of a return in the middle of a bin; under the printed law the least amplitude, squared. It makes up for what the smoothing takes
+  /// from its top, and the clutter is under it: 0 where that alone is above the threshold. Infinite where the saturation is below the threshold. The threshold of CFAR is here that of
+  /// noise and clutter alone, at their mean powers (without the random walk). The floor gate is not in it.
   double floor_power() const { return floor_power_; }
 
  private:

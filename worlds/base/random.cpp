@@ -39,7 +39,8 @@ inline double middle_quantile(double from_half) {
 
 double tail_quantile(double probability) {
   const double r = std::sqrt(-std::log(std::min(probability, 1.0 - probability)));
-  const double size = r <= near_tail_end ? polynomial(near_over, r - 1.6) / polynomial(near_under, r - 1.6) : polynomial(far_over, r - near_tail_end) / polynomial(far_under, r - near_tail_end);
+  const bool near = r <= near_tail_end;
+  const double x = r - (near ? 1.6 : near_tail_end), size = near ? polynomial(near_over, x) / polynomial(near_under, x) : polynomial(far_over, x) / polynomial(far_under, x);
   return probability < 0.5 ? -size : size;
 }
 
