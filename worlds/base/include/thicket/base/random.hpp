@@ -22,7 +22,7 @@ class Random {
   /// Two independent standard normal numbers (Box & Muller 1958).
   std::array<double, 2> normal(std::uint64_t scan, std::uint32_t beam, RandomUse use, std::uint32_t index) const;
 
-  /// Four independent standard normal numbers, the quantiles of `uniform`: between -6.34 and 6.34, and for about half the time of `normal` each. (The same arguments give other numbers there.)
+  /// Four independent standard normal numbers, the quantiles of those of `uniform` (and not the numbers of `normal`): between -6.4 and 6.4, each in about half the time of `normal`.
   std::array<double, 4> four_normal(std::uint64_t scan, std::uint32_t beam, RandomUse use, std::uint32_t index) const;
 
  private:
