@@ -2,6 +2,7 @@
 #include <tbb/global_control.h>
 
 #include "bench_worlds.hpp"
+#include "receiver.hpp"
 
 namespace thicket::bench {
 namespace {
@@ -42,6 +43,31 @@ void tracing(benchmark::State& state, const Scene& scene, const ScanningRadarSpe
   per_item(state, "beam", static_cast<double>(rays.size()));
 }
 
+/// As many returns as the lobe of Billdal 2018 was meant to have rays, to the bins of an X4.
+void receiver(benchmark::State& state, ReceiverSpec spec) {
+  spec.bin_count = 1536;
+  spec.bin_size_m = 0.0064256;
+  spec.bandwidth_ghz = 1.5;
+  RadarSpec wave;
+  wave.frequency_ghz = 7.29;
+  const Receiver receiver(spec, wave, 0.0, 9.87);
+  Dice dice(5);
+  std::vector<Return> returns;
+  for (int i = 0; i < 58 * 58; ++i) returns.push_back({dice.between(0.5, 9.5), static_cast<float>(dice.between(0.0, 1e-6)), 0.0f});
+  const Random random(1, 0);
+  Profiles profiles;
+  receiver.start(1, profiles);
+  std::vector<Echo> detections;
+  std::uint64_t number = 0;
+  for (auto _ : state) {
+    detections.clear();
+    receiver.receive(returns, {}, random, number++, 0, profiles, detections);
+    benchmark::DoNotOptimize(profiles.amplitude.data());
+    benchmark::ClobberMemory();
+  }
+  per_item(state, "profile", 1.0);
+}
+
 }  // namespace
 
 void register_radar() {
@@ -66,6 +92,17 @@ void register_radar() {
     measure("radar/scan of 3600, wall time/" + std::to_string(threads) + (threads == 1 ? " thread" : " threads"),
             [=](benchmark::State& s) { scans(s, scene, fine, threads); })
         ->UseRealTime();
+  ReceiverSpec quiet;
+  quiet.noise = 0.0;
+  ReceiverSpec cfar;
+  cfar.detector = "ca_cfar";
+  cfar.detection = "all";
+  ReceiverSpec iq = cfar;
+  iq.signal = "iq";
+  measure("receiver/3364 returns, 1536 bins/profile alone", [=](benchmark::State& s) { receiver(s, quiet); });
+  measure("receiver/3364 returns, 1536 bins/with noise", [=](benchmark::State& s) { receiver(s, ReceiverSpec{}); });
+  measure("receiver/3364 returns, 1536 bins/with noise and CFAR", [=](benchmark::State& s) { receiver(s, cfar); });
+  measure("receiver/3364 returns, 1536 bins/with I and Q, noise and CFAR", [=](benchmark::State& s) { receiver(s, iq); });
 }
 
 }  // namespace thicket::bench

@@ -107,6 +107,49 @@ TEST_CASE("normal numbers are normal") {
   CHECK(std::abs(static_cast<double>(within_one) / n - chance) < 4.0 * std::sqrt(chance * (1.0 - chance) / n));
 }
 
+TEST_CASE("the quantile of a normal number undoes its distribution, deep into both tails") {
+  const auto below = [](double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); };
+  CHECK(normal_quantile(0.5) == 0.0);
+  CHECK(normal_quantile(0.975) == doctest::Approx(1.959963984540054).epsilon(1e-14));
+  for (double probability = 1e-15; probability < 0.5; probability *= 1.17) {
+    CAPTURE(probability);
+    CHECK(std::abs(below(normal_quantile(probability)) / probability - 1.0) < 1e-12);
+    const double above = 1.0 - probability;  // as the machine has it
+    CHECK(std::abs(below(-normal_quantile(above)) / (1.0 - above) - 1.0) < 1e-12);
+  }
+}
+
+TEST_CASE("four normal numbers of one draw are normal, independent, and the quantiles of its uniform ones") {
+  const Random random(44, 2);
+  constexpr std::uint32_t draws = 100000;
+  double sum = 0.0, squares = 0.0, cubes = 0.0, fourths = 0.0;
+  std::array<double, 6> products{};
+  std::size_t beyond_two = 0;
+  for (std::uint32_t i = 0; i < draws; ++i) {
+    const auto numbers = random.four_normal(i / 1000, i % 1000, RandomUse::receiver, i % 7);
+    const auto u = random.uniform(i / 1000, i % 1000, RandomUse::receiver, i % 7);
+    std::size_t pair = 0;
+    for (std::size_t a = 0; a < 4; ++a) {
+      const double x = numbers[a];
+      REQUIRE(x == normal_quantile(u[a]));
+      sum += x;
+      squares += x * x;
+      cubes += x * x * x;
+      fourths += x * x * x * x;
+      beyond_two += std::abs(x) > 2.0;
+      for (std::size_t b = 0; b < a; ++b) products[pair++] += x * numbers[b];
+    }
+  }
+  const double n = 4.0 * draws;
+  CHECK(std::abs(sum / n) < 4.0 * std::sqrt(1.0 / n));
+  CHECK(std::abs(squares / n - 1.0) < 4.0 * std::sqrt(2.0 / n));
+  CHECK(std::abs(cubes / n) < 4.0 * std::sqrt(15.0 / n));
+  CHECK(std::abs(fourths / n - 3.0) < 4.0 * std::sqrt(96.0 / n));
+  for (const double product : products) CHECK(std::abs(product / draws) < 4.0 / std::sqrt(draws));
+  const double chance = std::erfc(std::numbers::sqrt2);
+  CHECK(std::abs(static_cast<double>(beyond_two) / n - chance) < 4.0 * std::sqrt(chance * (1.0 - chance) / n));
+}
+
 TEST_CASE("uses, beams, scans and sensors are not correlated") {
   const auto correlation = [](auto&& first, auto&& second) {
     double sum = 0.0;

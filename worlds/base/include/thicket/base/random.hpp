@@ -22,9 +22,16 @@ class Random {
   /// Two independent standard normal numbers (Box & Muller 1958).
   std::array<double, 2> normal(std::uint64_t scan, std::uint32_t beam, RandomUse use, std::uint32_t index) const;
 
+  /// Four independent standard normal numbers, the quantiles of those of `uniform` (and not the numbers of `normal`): between -6.4 and 6.4, each in about half the time of `normal`.
+  std::array<double, 4> four_normal(std::uint64_t scan, std::uint32_t beam, RandomUse use, std::uint32_t index) const;
+
  private:
   std::uint64_t seed_;
   std::uint16_t sensor_;
 };
+
+/// Where a standard normal number lies below with `probability`, which is in the open interval (0, 1). To about 1e-16 of itself, in both tails
+/// (Wichura, "Algorithm AS 241: the percentage points of the normal distribution", Applied Statistics 37, 1988).
+double normal_quantile(double probability);
 
 }  // namespace thicket
