@@ -218,6 +218,8 @@ SensorSpec read_sensor_at(const Node& entry, Faults& faults, int depth) {
                                         fmt::join(sensor_presets(), "', '")));
   }
   read_section(entry, sensor_section(spec), sensor_object(spec), faults, {"type", "preset"});
+  // A noise that is given on top of a preset is meant to count, and not the preset's table.
+  if (auto* lidar = std::get_if<LidarSpec>(&spec); lidar && entry.find("range_noise_m") && !entry.find("range_noise_table_m")) lidar->range_noise_table_m.clear();
   const MountedSpec& common = mounted(spec);
   if (common.range_min_m >= common.range_max_m)
     faults.add(entry.place, fmt::format("'range_min_m' is {}, expected less than range_max_m, {}", common.range_min_m, common.range_max_m));

@@ -160,6 +160,13 @@ TEST_CASE("a sensor that is written out reads back the same") {
   }
 }
 
+TEST_CASE("a range noise on top of a preset takes the place of its table") {
+  const auto lidar = [](const std::string& text) { return std::get<LidarSpec>(read("preset = \"urg04lx\"\n" + text).spec); };
+  CHECK(lidar("").range_noise_table_m.size() == 3);
+  CHECK(lidar("range_noise_m = 0.02\n").range_noise_table_m.empty());
+  CHECK(lidar("range_noise_m = 0.02\nrange_noise_table_m = [[1.0, 0.01]]\n").range_noise_table_m.size() == 1);
+}
+
 TEST_CASE("a ray spacing that takes too many rays is told with their number") {
   const std::string head = "type = \"lobe_radar\"\nrange_max_m = 10\n";
   CHECK(faults_of(head + "ray_spacing_m = 0.2\n") == "");
