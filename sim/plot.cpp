@@ -120,7 +120,7 @@ void draw_curve(Canvas& canvas, const Frame& frame, const Series& series) {
 void draw_series(Canvas& canvas, const Frame& frame, const Series& series) {
   using Kind = Series::Kind;
   if (series.kind == Kind::line || series.kind == Kind::dashed || series.kind == Kind::step) return draw_curve(canvas, frame, series);
-  const double radius = series.points.size() > 400 ? 2.0 : 3.6;
+  const double radius = series.points.size() > 400 ? 2.0 : series.points.size() > 60 ? 2.8 : 3.6;
   for (const glm::dvec2& p : series.points) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
     const glm::dvec2 at = frame.at(p);
@@ -377,26 +377,47 @@ void draw_dial(Canvas& canvas, const PolarPlot& plot, const Dial& dial, bool who
     const double azimuth = i * step;
     canvas.polyline({dial.centre, dial.at(azimuth, plot.range)}, grid_ink, 1.0);
     canvas.polyline({dial.at(azimuth, plot.range), dial.at(azimuth, plot.range + 5.0 / dial.scale)}, frame_ink, 1.0);
-    canvas.text(fmt::format("{:.0f}°", degrees(azimuth)), dial.at(azimuth, plot.range + 18.0 / dial.scale) + glm::dvec2(0.0, 4.3), tick_size, pale_ink, Align::middle);
+    const std::string words = i == 0 ? "0° ahead" : fmt::format("{}{:.0f}°", i < 0 ? "−" : "", std::abs(degrees(azimuth)));
+    // Farther out where the text is wide along the bearing.
+    const double away = 9.0 + std::abs(std::sin(azimuth)) * 0.5 * canvas.text_width(words, tick_size) + std::abs(std::cos(azimuth)) * 7.0;
+    canvas.text(words, dial.at(azimuth, plot.range + away / dial.scale) + glm::dvec2(0.0, 4.3), tick_size, pale_ink, Align::middle);
   }
   if (!whole)
     for (const double side : {-half, half}) canvas.polyline({dial.centre, dial.at(side, plot.range)}, frame_ink, 1.2);
 }
 
-/// Ring labels come last, on a white ground, along a bearing that no tick has.
+/// Ring labels come last, on a white ground, just inside of their rings; of the bearings between ticks along the one where they hide the fewest points.
 void label_rings(Canvas& canvas, const PolarPlot& plot, const Dial& dial, bool whole, double half) {
   const auto rings = nice_ticks(0.0, plot.range, std::clamp(static_cast<int>(plot.range * dial.scale / 44.0), 2, 7));
   const auto labels = tick_labels(rings);
+  const double size = 11.5;
+  const auto width = [&](std::size_t i) { return canvas.text_width(labels[i] + " m", size); };
+  const auto place = [&](double azimuth, std::size_t i) { return dial.at(azimuth, rings[i] - (0.5 * width(i) + 4.0) / dial.scale); };
+  double best = 0.0;
+  std::size_t fewest = plot.points.size() + 1;
+  for (const double candidate : {-75.0, -105.0, -45.0, -135.0, -15.0, -165.0, 75.0, 105.0, 45.0, 135.0, 15.0, 165.0}) {
+    if (!whole || fewest == 0) break;
+    std::size_t hidden = 0;
+    for (std::size_t i = 1; i < rings.size(); ++i) {
+      const glm::dvec2 at = place(radians(candidate), i), reach(0.5 * width(i) + 6.0, 12.0);
+      for (const auto& p : plot.points) {
+        const glm::dvec2 off = dial.at(p.azimuth, p.range) - at;
+        hidden += std::abs(off.x) < reach.x && std::abs(off.y) < reach.y;
+      }
+    }
+    if (hidden >= fewest) continue;
+    fewest = hidden;
+    best = radians(candidate);
+  }
   for (std::size_t i = 0; i < rings.size(); ++i) {
     if (rings[i] <= 0.0) continue;
     const std::string words = labels[i] + " m";
-    const double width = canvas.text_width(words, 11.5);
     if (whole) {
-      const glm::dvec2 at = dial.at(radians(-75.0), rings[i]);
-      canvas.rectangle({at.x - 0.5 * width - 2.0, at.y - 7.5}, {width + 4.0, 15.0}, {1.0, 1.0, 1.0, 0.8});
-      canvas.text(words, {at.x, at.y + 4.2}, 11.5, pale_ink, Align::middle);
+      const glm::dvec2 at = place(best, i);
+      canvas.rectangle({at.x - 0.5 * width(i) - 2.0, at.y - 7.5}, {width(i) + 4.0, 15.0}, {1.0, 1.0, 1.0, 0.75});
+      canvas.text(words, {at.x, at.y + 4.2}, size, pale_ink, Align::middle);
     } else {
-      canvas.text(words, dial.at(-half, rings[i]) + glm::dvec2(8.0 * std::cos(half) + 2.0, 4.2 + 10.0 * std::sin(half)), 11.5, pale_ink);
+      canvas.text(words, dial.at(-half, rings[i]) + glm::dvec2(8.0 * std::cos(half) + 4.0, 4.2 + 10.0 * std::sin(half)), size, pale_ink);
     }
   }
 }
@@ -476,7 +497,7 @@ std::vector<std::string> tick_labels(const std::vector<double>& ticks) {
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : std::abs(ticks.empty() ? 1.0 : ticks[0]);
   const int decimals = step > 0.0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9) : 0;
   std::vector<std::string> labels;
-  for (const double tick : ticks) labels.push_back(fmt::format("{:.{}f}", tick == 0.0 ? 0.0 : tick, decimals));
+  for (const double tick : ticks) labels.push_back(fmt::format("{}{:.{}f}", tick < 0.0 ? "−" : "", std::abs(tick), decimals));
   return labels;
 }
 

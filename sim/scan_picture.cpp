@@ -19,7 +19,7 @@ bool has_profiles(const SensorScans& one) {
 
 bool is_polar(const SensorScans& one) { return one.scans[0].beams.size() > few_beams; }
 
-std::string angle_range_title(const ScanReport& report) {
+std::string pose_in_words(const ScanReport& report) {
   const ScanPose& pose = report.poses[0];
   std::string text = fmt::format("sensor at x {:.2f} m, y {:.2f} m, z {:.2f} m, yaw {:.1f}°", pose.position.x, pose.position.y, pose.position.z, pose.yaw_deg);
   if (pose.pitch_deg != 0.0) text += fmt::format(", pitch {:.1f}°", pose.pitch_deg);
@@ -167,7 +167,7 @@ Plot stem_plot(const SensorScans& one) {
 
 Sheet sheet_of_one_pose(const ScanReport& report) {
   Sheet sheet;
-  sheet.subtitles = {angle_range_title(report)};
+  sheet.subtitles = {pose_in_words(report)};
   double farthest = 0.0;
   std::vector<double> powers;
   std::vector<const SensorScans*> polar;
@@ -248,13 +248,13 @@ Sheet sheet_of_way(const ScanReport& report) {
                                  report.poses.front().yaw_deg, report.poses.front().pitch_deg, to.x, to.y, to.z, report.poses.back().yaw_deg, report.poses.back().pitch_deg)};
   const auto [low, high] = std::minmax_element(way.values.begin(), way.values.end());
   const Axis x{way.label, *low, *high};
-  Plot ranges{"range of the strongest and of the first echo", x, {"range, m", 0.0, {}}, {}};
-  Plot powers{"the strongest over the way", x, {"strongest amplitude, dB", {}, {}}, {}};
+  Plot ranges{"", x, {"range, m", 0.0, {}}, {}};
+  Plot powers{"", x, {"largest amplitude, dB", {}, {}}, {}};
   double farthest = 0.0;
   std::size_t colour = 0;
   for (const SensorScans& one : report.sensors) {
     const bool profiles = has_profiles(one);
-    Series strongest_range{one.name + ", strongest", Series::Kind::points, plot_colour(colour), {}}, first_range{one.name + ", first", Series::Kind::line, plot_colour(colour), {}};
+    Series strongest_range{one.name + ", strongest echo", Series::Kind::points, plot_colour(colour), {}}, first_range{one.name + ", first echo", Series::Kind::line, plot_colour(colour), {}};
     Series power{one.name + (profiles ? ", top of the profile" : ", strongest echo"), Series::Kind::line, plot_colour(colour++), {}};
     for (std::size_t i = 0; i < one.scans.size(); ++i) {
       const ScanFigures figures = figures_of(one.scans[i]);
@@ -295,6 +295,12 @@ Result<Done> draw_scans(const ScanReport& report, const std::filesystem::path& f
   Sheet sheet = report.poses.size() > 1 ? sheet_of_way(report) : sheet_of_one_pose(report);
   sheet.title = report.world + ": ";
   for (std::size_t i = 0; i < report.sensors.size(); ++i) sheet.title += (i == 0 ? "" : i + 1 == report.sensors.size() ? " and " : ", ") + report.sensors[i].name;
+  if (report.sensors.size() == 1) {
+    // One sensor is told in the title alone.
+    sheet.subtitles.insert(sheet.subtitles.begin(), describe_sensor(report.sensors[0].spec));
+    for (Sheet::Row& row : sheet.rows)
+      for (Panel& panel : row.panels) std::visit([&](auto& plot) { if (plot.title == report.sensors[0].name) plot.title.clear(); }, panel);
+  }
   return sheet.write(file);
 }
 

@@ -39,11 +39,11 @@ void add_profile(std::string& text, const Scan& scan, std::size_t beam, bool vel
 
 void add_beams(std::string& text, const Scan& scan, bool velocity) {
   const bool elevated = std::any_of(scan.beams.begin(), scan.beams.end(), [](const Beam& beam) { return beam.elevation != 0.0; });
-  append(text, "\n   azimuth{}  how it ends              echoes: range, power, side{}{}\n", elevated ? "  elevation" : "",
+  append(text, "\n    azimuth{}  how it ends              echoes: range, power, side{}{}\n", elevated ? "  elevation" : "",
          std::any_of(scan.echoes.begin(), scan.echoes.end(), [](const Echo& e) { return e.bounces > 1; }) ? ", surfaces met on the way out" : "", velocity ? ", radial velocity" : "");
   for (const Beam& beam : scan.beams) {
-    std::string line = fmt::format("{:6.1f} deg", degrees(beam.azimuth));
-    if (elevated) append(line, " {:6.1f} deg", degrees(beam.elevation));
+    std::string line = fmt::format("{:7.2f} deg", degrees(beam.azimuth));
+    if (elevated) append(line, " {:6.2f} deg", degrees(beam.elevation));
     append(line, "  {:<9} at {:8.3f} m", to_string(beam.end), beam.sensed_range);
     if (beam.starts_inside) line += "  inside matter";
     for (const Echo& echo : scan.echoes_of(beam)) line += "  " + echo_in_words(echo, velocity);
