@@ -54,8 +54,8 @@ struct Frame {
   glm::dvec2 at(const glm::dvec2& p) const { return {box.corner.x + x.share(p.x) * box.size.x, box.bottom() - y.share(p.y) * box.size.y}; }
 };
 
-void draw_grid(Canvas& canvas, const Frame& frame, bool lines) {
-  const auto ticks_x = nice_ticks(frame.x.low, frame.x.high, std::max(2, static_cast<int>(frame.box.size.x / 75.0)));
+void draw_grid(Canvas& canvas, const Frame& frame, double tick, bool lines) {
+  const auto ticks_x = tick > 0.0 ? even_ticks(frame.x.low, frame.x.high, tick) : nice_ticks(frame.x.low, frame.x.high, std::max(2, static_cast<int>(frame.box.size.x / 75.0)));
   const auto ticks_y = nice_ticks(frame.y.low, frame.y.high, std::max(2, static_cast<int>(frame.box.size.y / 38.0)));
   const auto labels_x = tick_labels(ticks_x), labels_y = tick_labels(ticks_y);
   for (std::size_t i = 0; i < ticks_x.size(); ++i) {
@@ -258,7 +258,7 @@ void draw(Canvas& canvas, const Plot& plot, Box box, double right) {
     };
   };
   const Frame frame{within_axes(box, right), limits_of(plot.x, 0.0, each(true)), limits_of(plot.y, 0.06, each(false))};
-  draw_grid(canvas, frame, true);
+  draw_grid(canvas, frame, plot.x.tick, true);
   canvas.clip(frame.box.corner - glm::dvec2(1.0), frame.box.size + glm::dvec2(2.0));
   for (const Series& series : plot.series) draw_series(canvas, frame, series);
   canvas.unclip();
@@ -348,7 +348,7 @@ void draw(Canvas& canvas, const ImagePlot& plot, Box box, double right) {
   canvas.clip(area.corner, area.size);
   for (const Series& series : plot.series) draw_series(canvas, frame, series);
   canvas.unclip();
-  draw_grid(canvas, frame, false);
+  draw_grid(canvas, frame, plot.x.tick, false);
   draw_labels(canvas, frame, plot.x, plot.y);
   upright_bar(canvas, {{area.right() + 16.0, area.corner.y}, {16.0, area.size.y}}, values, plot.value.label);
 }
@@ -486,11 +486,16 @@ std::vector<double> nice_ticks(double low, double high, int most) {
     for (const double digit : {1.0, 2.0, 5.0}) {
       const double step = digit * power, first = std::ceil((low - slack) / step), last = std::floor((high + slack) / step);
       if (last - first + 1.0 > most) continue;
-      std::vector<double> ticks;
-      for (double i = first; i <= last; ++i) ticks.push_back(i * step + 0.0);
-      return ticks;
+      return even_ticks(low, high, step);
     }
   }
+}
+
+std::vector<double> even_ticks(double low, double high, double step) {
+  const double slack = 1e-9 * (high - low);
+  std::vector<double> ticks;
+  for (double i = std::ceil((low - slack) / step); i <= std::floor((high + slack) / step); ++i) ticks.push_back(i * step + 0.0);
+  return ticks;
 }
 
 std::vector<std::string> tick_labels(const std::vector<double>& ticks) {

@@ -27,10 +27,14 @@ std::vector<double> nice_ticks(double low, double high, int most);
 /// The ticks as text, each with as many decimals as their distance needs.
 std::vector<std::string> tick_labels(const std::vector<double>& ticks);
 
+/// Ticks at the multiples of a step, such as 30 degrees.
+std::vector<double> even_ticks(double low, double high, double step);
+
 /// From the smallest to the largest of what is shown, where no limits are given.
 struct Axis {
   std::string label;  ///< with its unit: "range, m"
   std::optional<double> low, high;
+  double tick = 0.0;  ///< distance of ticks; 0: a round one
 };
 
 struct Series {

@@ -48,6 +48,12 @@ Axis decibels(const std::vector<double>& values, std::string label, double lowes
   return axis;
 }
 
+/// A round step of angles, in degrees: 0 where numbers of any kind do.
+double angle_ticks(double span) {
+  const double wide = std::abs(span);
+  return wide > 1440.0 || wide <= 60.0 ? 0.0 : wide > 720.0 ? 90.0 : wide > 240.0 ? 45.0 : wide > 120.0 ? 30.0 : 15.0;
+}
+
 // --- scanning sensors
 
 PolarPlot::Shape shape_of(const Echo& echo) {
@@ -93,7 +99,7 @@ ImagePlot azimuth_image(const SensorScans& one) {
   const Scan& scan = one.scans[0];
   ImagePlot plot;
   plot.title = one.name + ": what the receiver has in its range bins";
-  plot.x.label = "azimuth, deg";
+  plot.x = {"azimuth, deg", {}, {}, angle_ticks(degrees(scan.beams.back().azimuth - scan.beams.front().azimuth))};
   plot.y.label = "range, m";
   plot.first = scan.profiles.first_range;
   plot.step = scan.profiles.bin_size;
@@ -105,6 +111,28 @@ ImagePlot azimuth_image(const SensorScans& one) {
   plot.value = decibels(values, "amplitude, dB", 0.05);
   plot.values.assign(values.begin(), values.end());
   return plot;
+}
+
+/// Images of sensors of one kind have one scale of colours, so that they can be held against each other.
+void share_scale(Sheet& sheet) {
+  std::vector<ImagePlot*> images;
+  for (Sheet::Row& row : sheet.rows)
+    for (Panel& panel : row.panels)
+      if (auto* image = std::get_if<ImagePlot>(&panel)) images.push_back(image);
+  if (images.size() < 2) return;
+  double low = INFINITY, high = -INFINITY;
+  for (const ImagePlot* image : images) {
+    low = std::min(low, *image->value.low);
+    high = std::max(high, *image->value.high);
+  }
+  for (ImagePlot* image : images) {
+    image->value.low = std::max(low, high - dynamic_range_db);
+    image->value.high = high;
+  }
+}
+
+bool of_one_kind(const ScanReport& report) {
+  return std::all_of(report.sensors.begin(), report.sensors.end(), [&](const SensorScans& one) { return one.spec.index() == report.sensors[0].spec.index(); });
 }
 
 // --- few beams
@@ -165,6 +193,29 @@ Plot stem_plot(const SensorScans& one) {
   return plot;
 }
 
+/// The same for curves, one above the other.
+void share_axes(Sheet& sheet) {
+  std::vector<Plot*> plots;
+  for (Sheet::Row& row : sheet.rows)
+    if (auto* plot = std::get_if<Plot>(&row.panels[0])) plots.push_back(plot);
+  if (plots.size() < 2 || std::any_of(plots.begin(), plots.end(), [&](const Plot* plot) { return plot->y.label != plots[0]->y.label; })) return;
+  double left = INFINITY, right = -INFINITY, low = INFINITY, high = -INFINITY;
+  for (const Plot* plot : plots) {
+    low = std::min(low, plot->y.low.value_or(0.0));
+    high = std::max(high, plot->y.high.value_or(0.0));
+    for (const Series& series : plot->series) {
+      for (const glm::dvec2& p : series.points) {
+        left = std::min(left, p.x);
+        right = std::max(right, p.x);
+      }
+    }
+  }
+  for (Plot* plot : plots) {
+    if (left < right) plot->x = {plot->x.label, std::min(left, plot->x.low.value_or(left)), right};
+    plot->y = {plot->y.label, low, high};
+  }
+}
+
 Sheet sheet_of_one_pose(const ScanReport& report) {
   Sheet sheet;
   sheet.subtitles = {pose_in_words(report)};
@@ -209,6 +260,10 @@ Sheet sheet_of_one_pose(const ScanReport& report) {
       sheet.rows.push_back({report.sensors.size() > 1 ? 330.0 : 460.0, {stem_plot(one)}});
     }
   }
+  if (of_one_kind(report)) {
+    share_scale(sheet);
+    share_axes(sheet);
+  }
   return sheet;
 }
 
@@ -218,7 +273,7 @@ ImagePlot waterfall(const SensorScans& one, const WayAxis& way) {
   const Profiles& first = one.scans[0].profiles;
   ImagePlot plot;
   plot.title = one.name;
-  plot.x.label = way.label;
+  plot.x = {way.label, {}, {}, 0.0};
   plot.y.label = "range, m";
   plot.first = first.first_range;
   plot.step = first.bin_size;
@@ -247,7 +302,7 @@ Sheet sheet_of_way(const ScanReport& report) {
   sheet.subtitles = {fmt::format("{} scans from x {:.2f}, y {:.2f}, z {:.2f} m, yaw {:.1f}°, pitch {:.1f}° to x {:.2f}, y {:.2f}, z {:.2f} m, yaw {:.1f}°, pitch {:.1f}°", report.poses.size(), from.x, from.y, from.z,
                                  report.poses.front().yaw_deg, report.poses.front().pitch_deg, to.x, to.y, to.z, report.poses.back().yaw_deg, report.poses.back().pitch_deg)};
   const auto [low, high] = std::minmax_element(way.values.begin(), way.values.end());
-  const Axis x{way.label, *low, *high};
+  const Axis x{way.label, *low, *high, way.label.ends_with("deg") ? angle_ticks(*high - *low) : 0.0};
   Plot ranges{"", x, {"range, m", 0.0, {}}, {}};
   Plot powers{"", x, {"largest amplitude, dB", {}, {}}, {}};
   double farthest = 0.0;
@@ -275,17 +330,17 @@ Sheet sheet_of_way(const ScanReport& report) {
   }
   ranges.y.high = farthest > 0.0 ? 1.06 * farthest : 1.0;
   if (!ranges.series.empty()) sheet.rows.push_back({380.0, {std::move(ranges)}});
-  // The curve stands exactly below the image that it belongs to.
-  for (const Sheet::Row& row : sheet.rows) {
-    if (!std::holds_alternative<ImagePlot>(row.panels[0]) || way.values.size() < 2) continue;
-    std::vector<double> sorted = way.values;
-    std::sort(sorted.begin(), sorted.end());
-    for (Sheet::Row& other : sheet.rows)
-      if (auto* plot = std::get_if<Plot>(&other.panels[0])) plot->x = {way.label, sorted[0] - 0.5 * (sorted[1] - sorted[0]), sorted.back() + 0.5 * (sorted.back() - sorted[sorted.size() - 2])};
-    powers.x = {way.label, sorted[0] - 0.5 * (sorted[1] - sorted[0]), sorted.back() + 0.5 * (sorted.back() - sorted[sorted.size() - 2])};
-    break;
-  }
   sheet.rows.push_back({300.0, {std::move(powers)}});
+  if (of_one_kind(report)) share_scale(sheet);
+  // A curve stands exactly below the image that it belongs to, whose columns are half a step wider on either side.
+  const bool images = std::any_of(sheet.rows.begin(), sheet.rows.end(), [](const Sheet::Row& row) { return std::holds_alternative<ImagePlot>(row.panels[0]); });
+  std::vector<double> sorted = way.values;
+  std::sort(sorted.begin(), sorted.end());
+  const double before = images ? 0.5 * (sorted[1] - sorted[0]) : 0.0, after = images ? 0.5 * (sorted.back() - sorted[sorted.size() - 2]) : 0.0;
+  for (Sheet::Row& row : sheet.rows)
+    for (Panel& panel : row.panels)
+      if (auto* image = std::get_if<ImagePlot>(&panel)) image->x.tick = x.tick;
+      else if (auto* plot = std::get_if<Plot>(&panel)) plot->x = {x.label, *x.low - before, *x.high + after, x.tick};
   return sheet;
 }
 

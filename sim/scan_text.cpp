@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
+#include <utility>
 
 #include "scan_figures.hpp"
 
@@ -10,6 +12,7 @@ namespace thicket {
 namespace {
 
 constexpr std::size_t few_beams = 8;  ///< profiles of so many are told top by top
+constexpr std::size_t most_in_a_row = 8, most_in_a_column = 40;  ///< echoes of a beam
 
 template <class... Values>
 void append(std::string& text, fmt::format_string<Values...> format, Values&&... values) {
@@ -27,6 +30,16 @@ std::string echo_in_words(const Echo& echo, bool velocity) {
   return text;
 }
 
+/// The strongest echoes of a beam by range, and how many are left out.
+std::pair<std::vector<Echo>, std::size_t> strongest_echoes(std::span<const Echo> echoes, std::size_t most) {
+  std::vector<Echo> list(echoes.begin(), echoes.end());
+  if (list.size() <= most) return {std::move(list), 0};
+  std::stable_sort(list.begin(), list.end(), [](const Echo& a, const Echo& b) { return a.amplitude > b.amplitude; });
+  list.resize(most);
+  std::stable_sort(list.begin(), list.end(), [](const Echo& a, const Echo& b) { return a.range < b.range; });
+  return {std::move(list), echoes.size() - most};
+}
+
 void add_profile(std::string& text, const Scan& scan, std::size_t beam, bool velocity) {
   const Beam& b = scan.beams[beam];
   append(text, "\nbeam {}, azimuth {:.1f} deg, elevation {:.1f} deg: {} detection{}\n", beam, degrees(b.azimuth), degrees(b.elevation), b.echo_count, b.echo_count == 1 ? "" : "s");
@@ -41,12 +54,16 @@ void add_beams(std::string& text, const Scan& scan, bool velocity) {
   const bool elevated = std::any_of(scan.beams.begin(), scan.beams.end(), [](const Beam& beam) { return beam.elevation != 0.0; });
   append(text, "\n    azimuth{}  how it ends              echoes: range, power, side{}{}\n", elevated ? "  elevation" : "",
          std::any_of(scan.echoes.begin(), scan.echoes.end(), [](const Echo& e) { return e.bounces > 1; }) ? ", surfaces met on the way out" : "", velocity ? ", radial velocity" : "");
+  // A beam of many echoes, a lobe, has a line for each.
+  const bool lobes = scan.beams.size() <= few_beams && std::any_of(scan.beams.begin(), scan.beams.end(), [](const Beam& beam) { return beam.echo_count > most_in_a_row; });
   for (const Beam& beam : scan.beams) {
     std::string line = fmt::format("{:7.2f} deg", degrees(beam.azimuth));
     if (elevated) append(line, " {:6.2f} deg", degrees(beam.elevation));
     append(line, "  {:<9} at {:8.3f} m", to_string(beam.end), beam.sensed_range);
     if (beam.starts_inside) line += "  inside matter";
-    for (const Echo& echo : scan.echoes_of(beam)) line += "  " + echo_in_words(echo, velocity);
+    const auto [echoes, weaker] = strongest_echoes(scan.echoes_of(beam), lobes ? most_in_a_column : most_in_a_row);
+    for (const Echo& echo : echoes) line += (lobes ? "\n    " : "  ") + echo_in_words(echo, velocity);
+    if (weaker > 0) append(line, "{}and {} weaker ones, which --csv tells", lobes ? "\n    " : "  ", weaker);
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
   }

@@ -15,7 +15,7 @@ namespace thicket::cli {
 namespace {
 
 constexpr const char* example = "thicket scan solids/wall --pose 0,-0.8,0.5,90 --sensor usarsim2012";
-constexpr int most_steps = 100000;
+constexpr int most_steps = 10000;
 
 /// What is missing, all of it at once.
 std::optional<Error> lacking(const ScanArguments& a) {
@@ -137,7 +137,8 @@ int write_outputs(const ScanArguments& a, const ScanReport& report) {
     }
     return write_file(file, text);
   };
-  if (!a.profile_csv.empty() && profile_csv(report).empty()) return complain({"--profile-csv: no sensor has a receiver with range bins; a radar gets one by --set 'echoes=\"receiver\"'"});
+  const auto has_bins = [](const SensorScans& one) { return one.scans[0].profiles.bins > 0; };
+  if (!a.profile_csv.empty() && std::none_of(report.sensors.begin(), report.sensors.end(), has_bins)) return complain({"--profile-csv: no sensor has a receiver with range bins; a radar gets one by --set 'echoes=\"receiver\"'"});
   for (const auto& written : {put(a.csv, scan_csv), put(a.profile_csv, profile_csv), put(a.json, scan_json), a.png.empty() ? Result<Done>(Done{}) : draw_scans(report, a.png)})
     if (!written) return complain(written.error());
   if (!to_terminal)

@@ -111,6 +111,7 @@ TEST_CASE("scan plots: ticks are 1, 2 or 5 apart and none is outside") {
   CHECK(nice_ticks(0.0, 10.0, 10) == List{0, 2, 4, 6, 8, 10});
   CHECK(nice_ticks(0.0, 10.0, 3) == List{0, 5, 10});
   CHECK(nice_ticks(-61.0, -9.0, 6) == List{-60, -50, -40, -30, -20, -10});
+  CHECK(even_ticks(-180.0, 180.0, 90.0) == List{-180, -90, 0, 90, 180});
   CHECK(nice_ticks(1.0, 1.0, 5).empty());
   CHECK(nice_ticks(0.0, INFINITY, 5).empty());
   for (const double high : {1e-6, 0.03, 0.7, 1.0, 12.5, 999.0, 4e7}) {
@@ -159,6 +160,19 @@ TEST_CASE("scan pictures without echoes, and of echoes of few beams") {
     const TemporaryFolder folder;
     CHECK(draw_scans(empty, folder.path() / "empty.png"));
   }
+}
+
+TEST_CASE("scan text of a lobe with hundreds of echoes names the strongest") {
+  ScanReport report = lobe_report(1);
+  Scan& scan = report.sensors[0].scans[0];
+  scan.profiles = {};
+  scan.echoes.clear();
+  for (int i = 0; i < 300; ++i) scan.echoes.push_back({1.0 + 0.01 * i, i == 250 ? 1.0f : 1e-3f / static_cast<float>(1 + i)});
+  scan.beams[0].echo_count = 300;
+  const std::string table = scan_table(report);
+  CHECK_MESSAGE(table.find("3.500 m     0.0 dB front") != std::string::npos, table);
+  CHECK_MESSAGE(table.find("and 260 weaker ones, which --csv tells") != std::string::npos, table);
+  CHECK(std::count(table.begin(), table.end(), '\n') < 60);
 }
 
 TEST_CASE("scan text of a receiver: detections, tops, and a row for each range bin") {
