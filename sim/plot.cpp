@@ -460,7 +460,8 @@ void draw(Canvas& canvas, const PolarPlot& plot, Box box, double) {
   canvas.disc(dial.centre, 4.0, white);
   canvas.disc(dial.centre, 2.8, ink);
   const double length = std::min(360.0, 0.8 * box.size.x);
-  if (!points.empty()) level_bar(canvas, {{std::round(box.corner.x + 0.5 * (box.size.x - length)), std::round(box.bottom() - 50.0)}, {length, 12.0}}, values, plot.value.label);
+  if (points.empty()) return canvas.text("no echo", {box.corner.x + 0.5 * box.size.x, box.bottom() - 40.0}, label_size, pale_ink, Align::middle);
+  level_bar(canvas, {{std::round(box.corner.x + 0.5 * (box.size.x - length)), std::round(box.bottom() - 50.0)}, {length, 12.0}}, values, plot.value.label);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "plot.hpp"
 #include "scan_figures.hpp"
@@ -29,7 +30,7 @@ std::string pose_in_words(const ScanReport& report) {
 /// A round number at or above: the outer ring.
 double ring_above(double range) {
   const double power = std::pow(10.0, std::floor(std::log10(range)));
-  for (const double digit : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0})
+  for (const double digit : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0})
     if (digit * power >= range * (1.0 - 1e-9)) return digit * power;
   return 10.0 * power;
 }
@@ -301,17 +302,23 @@ Sheet sheet_of_way(const ScanReport& report) {
   const glm::dvec3 from = report.poses.front().position, to = report.poses.back().position;
   sheet.subtitles = {fmt::format("{} scans from x {:.2f}, y {:.2f}, z {:.2f} m, yaw {:.1f}°, pitch {:.1f}° to x {:.2f}, y {:.2f}, z {:.2f} m, yaw {:.1f}°, pitch {:.1f}°", report.poses.size(), from.x, from.y, from.z,
                                  report.poses.front().yaw_deg, report.poses.front().pitch_deg, to.x, to.y, to.z, report.poses.back().yaw_deg, report.poses.back().pitch_deg)};
+  sheet.subtitles.push_back(fmt::format("scans {} to {}, at {:g} s", report.number, report.number + report.poses.size() - 1, report.time));
   const auto [low, high] = std::minmax_element(way.values.begin(), way.values.end());
   const Axis x{way.label, *low, *high, way.label.ends_with("deg") ? angle_ticks(*high - *low) : 0.0};
   Plot ranges{"", x, {"range, m", 0.0, {}}, {}};
   Plot powers{"", x, {"largest amplitude, dB", {}, {}}, {}};
+  // A curve goes from left to right, whatever the order of labels.
+  std::vector<std::size_t> order(way.values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return way.values[a] < way.values[b]; });
   double farthest = 0.0;
   std::size_t colour = 0;
   for (const SensorScans& one : report.sensors) {
     const bool profiles = has_profiles(one);
-    Series strongest_range{one.name + ", strongest echo", Series::Kind::points, plot_colour(colour), {}}, first_range{one.name + ", first echo", Series::Kind::line, plot_colour(colour), {}};
-    Series power{one.name + (profiles ? ", top of the profile" : ", strongest echo"), Series::Kind::line, plot_colour(colour++), {}};
-    for (std::size_t i = 0; i < one.scans.size(); ++i) {
+    const std::string whose = report.sensors.size() > 1 ? one.name + ", " : "";
+    Series strongest_range{whose + "strongest echo", Series::Kind::points, plot_colour(colour), {}}, first_range{whose + "first echo", Series::Kind::line, plot_colour(colour), {}};
+    Series power{whose + (profiles ? "top of the profile" : "strongest echo"), Series::Kind::line, plot_colour(colour++), {}};
+    for (const std::size_t i : order) {
       const ScanFigures figures = figures_of(one.scans[i]);
       const double none = std::nan("");
       const double top = profiles ? figures.top_amplitude.value_or(0.0) : figures.strongest ? figures.strongest->amplitude : 0.0;

@@ -90,7 +90,8 @@ std::vector<ScanPose> straight_way(const ScanPose& from, const ScanPose& to, int
   std::vector<ScanPose> poses;
   for (int i = 0; i < count; ++i) {
     const double t = count > 1 ? static_cast<double>(i) / (count - 1) : 0.0;
-    poses.push_back({(1.0 - t) * from.position + t * to.position, (1.0 - t) * from.yaw_deg + t * to.yaw_deg, (1.0 - t) * from.pitch_deg + t * to.pitch_deg, {}});
+    // What does not change stays the same to the last bit.
+    poses.push_back({from.position + t * (to.position - from.position), from.yaw_deg + t * (to.yaw_deg - from.yaw_deg), from.pitch_deg + t * (to.pitch_deg - from.pitch_deg), {}});
   }
   return poses;
 }

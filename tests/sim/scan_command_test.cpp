@@ -161,6 +161,16 @@ TEST_CASE("scan along a way has a row for each pose") {
   CHECK(read_image(folder.path() / "way.png"));
 }
 
+TEST_CASE("scan that turns on the spot goes over its yaw, and one that tilts over its pitch") {
+  const TemporaryFolder folder;
+  write_wall(folder);
+  const Answer turn = call(folder, "scan wall.toml --pose 0,-0.8,1,-30 --to 0,-0.8,1,30 --steps 7 --sensor usarsim2012 --set fov_deg=1 --png turn.png");
+  CHECK(turn.code == 0);
+  CHECK(has(call(folder, "scan wall.toml --pose 0,-0.8,1,-30 --to 0,-0.8,1,30 --steps 7 --sensor usarsim2012 --set fov_deg=1").out, "  yaw, deg  "));
+  CHECK(has(call(folder, "scan wall.toml --pose 0,-0.8,1,0,-9 --to 0,-0.8,1,0,9 --steps 7 --sensor usarsim2012 --set fov_deg=1").out, "pitch, deg  "));
+  CHECK(has(call(folder, "scan wall.toml --pose 0,-0.8,1,0 --to 0,-0.8,1,0 --steps 3 --number 4 --sensor usarsim2012 --set fov_deg=1").out, "\n     6.000  "));
+}
+
 TEST_CASE("scan reads poses from a table, with a label to draw over") {
   const TemporaryFolder folder;
   write_wall(folder);
