@@ -54,10 +54,12 @@ struct Frame {
   glm::dvec2 at(const glm::dvec2& p) const { return {box.corner.x + x.share(p.x) * box.size.x, box.bottom() - y.share(p.y) * box.size.y}; }
 };
 
-void draw_grid(Canvas& canvas, const Frame& frame, double tick, bool lines) {
+/// Ticks with their numbers and lines; returns how wide the numbers of the y axis are.
+double draw_grid(Canvas& canvas, const Frame& frame, double tick, bool lines) {
   const auto ticks_x = tick > 0.0 ? even_ticks(frame.x.low, frame.x.high, tick) : nice_ticks(frame.x.low, frame.x.high, std::max(2, static_cast<int>(frame.box.size.x / 75.0)));
   const auto ticks_y = nice_ticks(frame.y.low, frame.y.high, std::max(2, static_cast<int>(frame.box.size.y / 38.0)));
   const auto labels_x = tick_labels(ticks_x), labels_y = tick_labels(ticks_y);
+  double widest = 0.0;
   for (std::size_t i = 0; i < ticks_x.size(); ++i) {
     const double x = frame.at({ticks_x[i], 0.0}).x;
     if (lines) canvas.polyline({{x, frame.box.corner.y}, {x, frame.box.bottom()}}, grid_ink, 1.0);
@@ -69,13 +71,26 @@ void draw_grid(Canvas& canvas, const Frame& frame, double tick, bool lines) {
     if (lines) canvas.polyline({{frame.box.corner.x, y}, {frame.box.right(), y}}, grid_ink, 1.0);
     canvas.polyline({{frame.box.corner.x - 5.0, y}, {frame.box.corner.x, y}}, frame_ink, 1.0);
     canvas.text(labels_y[i], {frame.box.corner.x - 9.0, y + 4.3}, tick_size, ink, Align::right);
+    widest = std::max(widest, canvas.text_width(labels_y[i], tick_size));
   }
+  return widest;
 }
 
-void draw_labels(Canvas& canvas, const Frame& frame, const Axis& x, const Axis& y) {
+void draw_labels(Canvas& canvas, const Frame& frame, const Axis& x, const Axis& y, double numbers) {
   canvas.frame(frame.box.corner, frame.box.size, frame_ink, 1.0);
   canvas.text(x.label, {frame.box.corner.x + 0.5 * frame.box.size.x, frame.box.bottom() + 39.0}, label_size, ink, Align::middle);
-  canvas.upward_text(y.label, {frame.box.corner.x - 54.0, frame.box.corner.y + 0.5 * frame.box.size.y}, label_size, ink);
+  canvas.upward_text(y.label, {frame.box.corner.x - std::max(54.0, numbers + 20.0), frame.box.corner.y + 0.5 * frame.box.size.y}, label_size, ink);
+}
+
+/// Words that fit into a width: what is too long ends in an ellipsis.
+std::string fitting(Canvas& canvas, const std::string& words, double size, double width) {
+  if (canvas.text_width(words, size) <= width) return words;
+  std::string cut = words;
+  while (!cut.empty() && canvas.text_width(cut + "…", size) > width) {
+    while (!cut.empty() && (static_cast<unsigned char>(cut.back()) & 0xc0u) == 0x80u) cut.pop_back();  // the tail of a character of several bytes
+    if (!cut.empty()) cut.pop_back();
+  }
+  return cut + "…";
 }
 
 // --- marks and curves
@@ -147,7 +162,8 @@ double legend(Canvas& canvas, const std::vector<Entry>& entries, const glm::dvec
   if (entries.empty()) return 0.0;
   glm::dvec2 at = from;
   for (const Entry& entry : entries) {
-    const double width = 32.0 + canvas.text_width(entry.words, tick_size);
+    const std::string words = fitting(canvas, entry.words, tick_size, right - from.x - 32.0);
+    const double width = 32.0 + canvas.text_width(words, tick_size);
     if (at.x > from.x && at.x + width > right) at = {from.x, at.y + legend_row};
     if (draw) {
       const double y = at.y + 10.0;
@@ -164,7 +180,7 @@ double legend(Canvas& canvas, const std::vector<Entry>& entries, const glm::dvec
         canvas.rectangle({at.x + 4.0, y - 6.0}, {20.0, 12.0}, sensed_ink);
         canvas.frame({at.x + 4.0, y - 6.0}, {20.0, 12.0}, frame_ink, 0.8);
       }
-      canvas.text(entry.words, {at.x + 31.0, y + 4.3}, tick_size, ink);
+      canvas.text(words, {at.x + 31.0, y + 4.3}, tick_size, ink);
     }
     at.x += width + 20.0;
   }
@@ -182,7 +198,7 @@ std::vector<Entry> entries_of(const std::vector<Series>& list) {
 void take_heading(Canvas& canvas, Box& box, const std::string& title, const std::vector<Entry>& entries) {
   double height = 0.0;
   if (!title.empty()) {
-    canvas.text(title, box.corner + glm::dvec2(0.0, 13.0), heading_size, ink);
+    canvas.text(fitting(canvas, title, heading_size, box.size.x), box.corner + glm::dvec2(0.0, 13.0), heading_size, ink);
     height += 22.0;
   }
   const double keys = legend(canvas, entries, box.corner + glm::dvec2(0.0, height), box.right(), false);
@@ -237,7 +253,7 @@ void level_bar(Canvas& canvas, const Box& box, const Limits& limits, const std::
 
 // --- the panels
 
-constexpr double axis_left = 72.0, axis_bottom = 46.0, bar_room = 104.0, plain_room = 16.0;
+constexpr double axis_left = 78.0, axis_bottom = 46.0, bar_room = 104.0, plain_room = 16.0;
 
 double right_room(const Panel& panel) { return std::holds_alternative<ImagePlot>(panel) ? bar_room : plain_room; }
 
@@ -258,11 +274,11 @@ void draw(Canvas& canvas, const Plot& plot, Box box, double right) {
     };
   };
   const Frame frame{within_axes(box, right), limits_of(plot.x, 0.0, each(true)), limits_of(plot.y, 0.06, each(false))};
-  draw_grid(canvas, frame, plot.x.tick, true);
+  const double numbers = draw_grid(canvas, frame, plot.x.tick, true);
   canvas.clip(frame.box.corner - glm::dvec2(1.0), frame.box.size + glm::dvec2(2.0));
   for (const Series& series : plot.series) draw_series(canvas, frame, series);
   canvas.unclip();
-  draw_labels(canvas, frame, plot.x, plot.y);
+  draw_labels(canvas, frame, plot.x, plot.y, numbers);
 }
 
 /// Limits in the middles of columns become those of their outer edges.
@@ -348,8 +364,8 @@ void draw(Canvas& canvas, const ImagePlot& plot, Box box, double right) {
   canvas.clip(area.corner, area.size);
   for (const Series& series : plot.series) draw_series(canvas, frame, series);
   canvas.unclip();
-  draw_grid(canvas, frame, plot.x.tick, false);
-  draw_labels(canvas, frame, plot.x, plot.y);
+  const double numbers = draw_grid(canvas, frame, plot.x.tick, false);
+  draw_labels(canvas, frame, plot.x, plot.y, numbers);
   upright_bar(canvas, {{area.right() + 16.0, area.corner.y}, {16.0, area.size.y}}, values, plot.value.label);
 }
 
@@ -366,8 +382,16 @@ struct Dial {
   }
 };
 
+/// Ranges of the rings: round, and the outer one among them.
+std::vector<double> rings_of(const PolarPlot& plot, const Dial& dial) {
+  const int most = std::clamp(static_cast<int>(plot.range * dial.scale / 44.0), 2, 7);
+  for (int more = most; more <= most + 6; ++more)
+    if (auto rings = nice_ticks(0.0, plot.range, more); rings.back() > 0.999 * plot.range) return rings;
+  return nice_ticks(0.0, plot.range, most);
+}
+
 void draw_dial(Canvas& canvas, const PolarPlot& plot, const Dial& dial, bool whole, double half) {
-  const auto rings = nice_ticks(0.0, plot.range, std::clamp(static_cast<int>(plot.range * dial.scale / 44.0), 2, 7));
+  const auto rings = rings_of(plot, dial);
   for (const double ring : rings)
     if (ring > 0.0 && ring < 0.999 * plot.range) canvas.polyline(dial.arc(-half, half, ring), {0.80, 0.82, 0.84}, 1.0);
   canvas.polyline(dial.arc(-half, half, plot.range), frame_ink, 1.2);
@@ -388,7 +412,7 @@ void draw_dial(Canvas& canvas, const PolarPlot& plot, const Dial& dial, bool who
 
 /// Ring labels come last, on a white ground, just inside of their rings; of the bearings between ticks along the one where they hide the fewest points.
 void label_rings(Canvas& canvas, const PolarPlot& plot, const Dial& dial, bool whole, double half) {
-  const auto rings = nice_ticks(0.0, plot.range, std::clamp(static_cast<int>(plot.range * dial.scale / 44.0), 2, 7));
+  const auto rings = rings_of(plot, dial);
   const auto labels = tick_labels(rings);
   const double size = 11.5;
   const auto width = [&](std::size_t i) { return canvas.text_width(labels[i] + " m", size); };
@@ -512,8 +536,10 @@ Result<Done> Sheet::write(const std::filesystem::path& file) const {
   const double head = height;
   for (const Row& row : rows) height += row.height + panel_gap;
   Canvas canvas(width, static_cast<int>(std::ceil(height)), white);
-  canvas.text(title, {sheet_margin, sheet_margin + 12.0}, title_size, ink);
-  for (std::size_t i = 0; i < subtitles.size(); ++i) canvas.text(subtitles[i], {sheet_margin, sheet_margin + 34.0 + 20.0 * static_cast<double>(i)}, subtitle_size, pale_ink);
+  const double inside = width - 2.0 * sheet_margin;
+  canvas.text(fitting(canvas, title, title_size, inside), {sheet_margin, sheet_margin + 12.0}, title_size, ink);
+  for (std::size_t i = 0; i < subtitles.size(); ++i)
+    canvas.text(fitting(canvas, subtitles[i], subtitle_size, inside), {sheet_margin, sheet_margin + 34.0 + 20.0 * static_cast<double>(i)}, subtitle_size, pale_ink);
   double top = head + 6.0;
   for (const Row& row : rows) {
     const double count = static_cast<double>(row.panels.size());

@@ -343,7 +343,8 @@ Sheet sheet_of_way(const ScanReport& report) {
   const bool images = std::any_of(sheet.rows.begin(), sheet.rows.end(), [](const Sheet::Row& row) { return std::holds_alternative<ImagePlot>(row.panels[0]); });
   std::vector<double> sorted = way.values;
   std::sort(sorted.begin(), sorted.end());
-  const double before = images ? 0.5 * (sorted[1] - sorted[0]) : 0.0, after = images ? 0.5 * (sorted.back() - sorted[sorted.size() - 2]) : 0.0;
+  const double margin = 0.012 * (sorted.back() - sorted[0]);  // for whole points at the ends
+  const double before = images ? 0.5 * (sorted[1] - sorted[0]) : margin, after = images ? 0.5 * (sorted.back() - sorted[sorted.size() - 2]) : margin;
   for (Sheet::Row& row : sheet.rows)
     for (Panel& panel : row.panels)
       if (auto* image = std::get_if<ImagePlot>(&panel)) image->x.tick = x.tick;
