@@ -71,12 +71,38 @@ void Canvas::cross(const glm::dvec2& centre, double size, const Colour& line, do
   polyline({centre + glm::dvec2(-size, size), centre + glm::dvec2(size, -size)}, line, width);
 }
 
-void Canvas::text(const std::string& words, const glm::dvec2& at, double size, const Colour& colour) {
+void Canvas::polygon(const std::vector<glm::dvec2>& points, const Colour& fill) {
+  if (points.size() < 3) return;
+  set(context_.get(), fill);
+  cairo_move_to(context_.get(), points.front().x, points.front().y);
+  for (const glm::dvec2& p : points) cairo_line_to(context_.get(), p.x, p.y);
+  cairo_close_path(context_.get());
+  cairo_fill(context_.get());
+}
+
+void Canvas::text(const std::string& words, const glm::dvec2& at, double size, const Colour& colour, Align align) {
+  const double back = align == Align::left ? 0.0 : text_width(words, size) * (align == Align::middle ? 0.5 : 1.0);
   set(context_.get(), colour);
   font(context_.get(), size);
-  cairo_move_to(context_.get(), at.x, at.y);
+  cairo_move_to(context_.get(), at.x - back, at.y);
   cairo_show_text(context_.get(), words.c_str());
 }
+
+void Canvas::upward_text(const std::string& words, const glm::dvec2& at, double size, const Colour& colour) {
+  cairo_save(context_.get());
+  cairo_translate(context_.get(), at.x, at.y);
+  cairo_rotate(context_.get(), -0.5 * pi);
+  text(words, {0.0, 0.0}, size, colour, Align::middle);
+  cairo_restore(context_.get());
+}
+
+void Canvas::clip(const glm::dvec2& corner, const glm::dvec2& size) {
+  cairo_save(context_.get());
+  cairo_rectangle(context_.get(), corner.x, corner.y, size.x, size.y);
+  cairo_clip(context_.get());
+}
+
+void Canvas::unclip() { cairo_restore(context_.get()); }
 
 double Canvas::text_width(const std::string& words, double size) {
   font(context_.get(), size);

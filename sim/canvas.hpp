@@ -20,6 +20,9 @@ struct Colour {
   double red = 0.0, green = 0.0, blue = 0.0, alpha = 1.0;
 };
 
+/// Which point of a text stands where it is put.
+enum class Align : std::uint8_t { left, middle, right };
+
 /// Pixels, x right, y down.
 class Canvas {
  public:
@@ -31,11 +34,18 @@ class Canvas {
   void disc(const glm::dvec2& centre, double radius, const Colour& fill);
   void circle(const glm::dvec2& centre, double radius, const Colour& line, double width);
   void cross(const glm::dvec2& centre, double size, const Colour& line, double width);
-  /// Baseline at `at`, to its right.
-  void text(const std::string& words, const glm::dvec2& at, double size, const Colour& colour);
+  void polygon(const std::vector<glm::dvec2>& points, const Colour& fill);
+  /// Baseline at `at`; to its right, unless it is aligned otherwise.
+  void text(const std::string& words, const glm::dvec2& at, double size, const Colour& colour, Align align = Align::left);
+  /// Read from below to above, the middle of its baseline at `at`.
+  void upward_text(const std::string& words, const glm::dvec2& at, double size, const Colour& colour);
   double text_width(const std::string& words, double size);
   /// An image of packed 0xAARRGGBB pixels, opaque, scaled without smoothing.
   void image(const std::vector<std::uint32_t>& pixels, int columns, int rows, const glm::dvec2& corner, double scale);
+
+  /// Until `unclip`, nothing is drawn outside of this rectangle.
+  void clip(const glm::dvec2& corner, const glm::dvec2& size);
+  void unclip();
 
   /// PNG, written whole or not at all.
   Result<Done> write(const std::filesystem::path& file) const;

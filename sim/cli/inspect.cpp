@@ -9,6 +9,7 @@
 #include "thicket/base/document.hpp"
 #include "thicket/base/files.hpp"
 #include "thicket/sim/check.hpp"
+#include "thicket/sim/scan_report.hpp"
 
 namespace thicket::cli {
 namespace {
@@ -36,13 +37,10 @@ int check_world(const std::filesystem::path& file, const CheckArguments& argumen
   if (!world) return complain(world.error());
   const auto scene = Scene::build(std::move(*world));
   if (!scene) return complain(scene.error());
-  const auto preset = parse_document(fmt::format("preset = {}", toml_string(arguments.sensor)), "--sensor");
-  if (!preset) return complain(preset.error());
-  Faults faults;
-  const SensorSpec spec = read_sensor(*preset, faults);
-  if (!faults.none()) return complain(faults.error());
+  const auto sensor = find_sensor(arguments.sensor, "--sensor");
+  if (!sensor) return complain(sensor.error());
   fmt::print("{}", describe_scene(*scene));
-  return print_end(stealth_warnings(scene->world(), *make_sensor(spec, 0)));
+  return print_end(stealth_warnings(scene->world(), *make_sensor(*sensor, 0)));
 }
 
 int check_mission(const std::filesystem::path& file, const std::vector<Override>& overrides) {

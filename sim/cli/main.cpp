@@ -114,6 +114,28 @@ void add_picture(CLI::App& app, PictureArguments& a) {
   app.add_option("--map-image", a.map_image, "for a map_server world: an image instead of the one that it names")->type_name("FILE");
 }
 
+void add_scan(CLI::App& app, ScanArguments& a) {
+  app.add_option("world", a.world, "world file, map_server YAML, MovingAI .map or OBJ; shipped ones are found from any directory")->type_name("FILE");
+  app.add_option("--pose", a.pose, "where the sensor itself is (its mount on a vehicle is left out): metres, z above the world's zero, degrees, pitch nose down")->type_name("X,Y,Z,YAW_DEG[,PITCH_DEG]");
+  app.add_option("--sensor", a.sensors, "sensor preset (`thicket sensors`) or file; may be given often")->type_name("NAME")->allow_extra_args(false);
+  app.add_option("--compare", a.compared, "another one to hold against it, which --set KEY leaves as it is; may be given often")->type_name("NAME")->allow_extra_args(false);
+  app.add_option("--set", a.sets, "any key of --sensor, for example range_max_m=20; NAME.KEY=VALUE for one sensor by name; may be given often")->type_name("KEY=VALUE")->allow_extra_args(false);
+  app.add_option("--to", a.to, "with --steps: scans on the straight way from --pose to here")->type_name("X,Y,Z,YAW_DEG[,PITCH_DEG]");
+  app.add_option("--steps", a.steps, "scans on the way to --to, both ends included")->type_name("N");
+  app.add_option("--poses", a.poses, "scans at the poses of a table x_m,y_m,z_m,yaw_deg[,pitch_deg][,label]")->type_name("FILE.csv");
+  app.add_option("--x-label", a.x_label, "draw over the column `label` of --poses, which is this: \"tilt, deg\"")->type_name("TEXT");
+  app.add_option("--number", a.number, "number of the scan, of the first one on a way: another number, other noise")->capture_default_str()->type_name("N");
+  app.add_option("--seed", a.seed, "seed of everything random")->capture_default_str()->type_name("N");
+  app.add_option("--time", a.time, "the world as it stands at this time, seconds")->capture_default_str();
+  app.add_option("--velocity", a.velocity, "of the sensor in the world, metres per second, for radial velocities")->type_name("VX,VY,VZ");
+  app.add_option("--csv", a.csv, "a row for each echo, on a way for each pose; - is the terminal")->type_name("FILE");
+  app.add_option("--json", a.json, "all of it, with the keys of the sensors; - is the terminal")->type_name("FILE");
+  app.add_option("--profile-csv", a.profile_csv, "of a receiver: a row for each range bin; - is the terminal")->type_name("FILE");
+  app.add_option("--png", a.png, "picture: what a scanning sensor saw around it, amplitude over range of a lobe, range over way")->type_name("FILE.png");
+  app.add_option("--cell-size", a.cell_size, "of a MovingAI map, metres a cell; 1 if it is not given")->type_name("M");
+  app.add_option("--map-image", a.map_image, "for a map_server world: an image instead of the one that it names")->type_name("FILE");
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app{"Thicket simulates robots that find their way by radar."};
   app.name("thicket");
@@ -154,6 +176,12 @@ int dispatch(int argc, char** argv) {
   materials.add_option("world", materials_arguments.world, "world file (default: the shipped materials)")->type_name("FILE");
   materials.add_option("--frequency-ghz", materials_arguments.frequency_ghz, "frequency (default: 24)")->type_name("GHZ");
   materials.add_option("--thickness-m", materials_arguments.thickness_m, "also what a wall of this thickness reflects and lets through, at normal incidence")->type_name("M");
+  ScanArguments scan_arguments;
+  CLI::App& scan = *app.add_subcommand("scan", "what a sensor sees of a world from a pose or along a way: table, CSV, JSON, picture");
+  add_scan(scan, scan_arguments);
+  std::string sensor_name;
+  CLI::App& sensors = *app.add_subcommand("sensors", "list the sensor presets that are shipped, or all keys of one");
+  sensors.add_option("name", sensor_name, "sensor preset or file (default: a table of all)")->type_name("NAME");
   CLI::App& help = *app.add_subcommand("help", "explain every key of a mission or world file");
   help.add_option("topic", topic, "mission or world")->required();
   bool markdown = false;
@@ -187,6 +215,8 @@ int dispatch(int argc, char** argv) {
   if (picture.parsed()) return draw_picture(picture_arguments);
   if (worlds.parsed()) return list_worlds();
   if (materials.parsed()) return list_materials(materials_arguments);
+  if (scan.parsed()) return measure_scans(scan_arguments);
+  if (sensors.parsed()) return list_sensors(sensor_name);
   return help_topic(topic, markdown);
 }
 

@@ -1,7 +1,6 @@
 // `thicket materials`: what matter is made of, as a radar of some frequency meets it.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -10,8 +9,6 @@
 
 namespace thicket::cli {
 namespace {
-
-using Row = std::vector<std::string>;
 
 /// Three digits or more, as a table wants them: 2660, 54.4, 0.00218, 1e+07.
 std::string figure(double number) { return number >= 100.0 && number < 1e5 ? fmt::format("{:.0f}", number) : fmt::format("{:.3g}", number); }
@@ -48,23 +45,6 @@ Row row_of(const Material& material, const MaterialsArguments& arguments) {
   return row;
 }
 
-/// Columns as wide as their widest entry: words to the left, numbers to the right.
-std::string aligned(const std::vector<Row>& rows) {
-  std::vector<std::size_t> widths(rows[0].size(), 0);
-  for (const Row& row : rows)
-    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
-  std::string text;
-  for (const Row& row : rows) {
-    std::string line;
-    for (std::size_t c = 0; c + 1 < row.size(); ++c) {
-      const bool words = c == 0 || rows[0][c] == "stops";
-      line += words ? fmt::format("{:<{}}  ", row[c], widths[c]) : fmt::format("{:>{}}  ", row[c], widths[c]);
-    }
-    text += line + row.back() + "\n";
-  }
-  return text;
-}
-
 Result<std::vector<Material>> materials_of(const std::string& world_name) {
   if (world_name.empty()) return material_presets();
   const auto file = find_world(world_name);
@@ -85,7 +65,7 @@ int list_materials(const MaterialsArguments& arguments) {
   if (!materials) return complain(materials.error());
   std::vector<Row> rows = {heads(arguments)};
   for (const Material& material : *materials) rows.push_back(row_of(material, arguments));
-  fmt::print("at {:g} GHz{}\n\n{}", arguments.frequency_ghz, arguments.thickness_m ? fmt::format(", walls of {:g} m at normal incidence", *arguments.thickness_m) : "", aligned(rows));
+  fmt::print("at {:g} GHz{}\n\n{}", arguments.frequency_ghz, arguments.thickness_m ? fmt::format(", walls of {:g} m at normal incidence", *arguments.thickness_m) : "", aligned(rows, {"stops"}));
   return done;
 }
 

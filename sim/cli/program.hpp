@@ -71,6 +71,21 @@ struct PictureArguments {
 };
 int draw_picture(const PictureArguments& arguments);
 
+struct ScanArguments {
+  std::string world, map_image;
+  std::optional<double> cell_size;  ///< m, of a MovingAI map
+  std::vector<std::string> sensors, compared, sets;
+  std::string pose, to, poses, velocity;  ///< X,Y,Z,YAW_DEG[,PITCH_DEG] twice, a file, VX,VY,VZ; empty: not given
+  std::optional<int> steps;
+  std::int64_t number = 0, seed = 1;
+  double time = 0.0;
+  std::string csv, json, profile_csv, png;  ///< files; empty: none, "-": the terminal
+  std::string x_label;
+};
+int measure_scans(const ScanArguments& arguments);
+/// The shipped presets; with a name, the keys of one.
+int list_sensors(const std::string& name);
+
 int help_topic(const std::string& topic, bool markdown);
 
 // --- what commands share
@@ -83,6 +98,11 @@ std::string missing_input(const std::string& name);
 bool is_mission(const std::filesystem::path& file);
 /// The file of a world by its name; an error if there is none, or a mission.
 Result<std::filesystem::path> find_world(const std::string& name);
+
+using Row = std::vector<std::string>;
+
+/// A table, its heads in the first row, with columns as wide as their widest entry: the first, the last and those named here to the left, others, numbers, to the right.
+std::string aligned(const std::vector<Row>& rows, const std::vector<std::string>& words);
 
 /// "1,2.5" as exactly `count` finite numbers.
 template <std::size_t count>
