@@ -49,14 +49,16 @@ class Radar final : public Sensor {
         printed_(p_.wave.law == "printed"), receiver_(p_.receiver, p_.wave, p_.mounted.range_min_m, p_.mounted.range_max_m), floor_power_(std::pow(10.0, 0.1 * p_.wave.detection_floor_db)) {
     double printed_sum = 0.0;
     for (const SubRay& ray : p_.antenna.rays()) {
+      if (ray.share == 0.0 && !jitter_) continue;  // on the border of an elliptic section
       const double gain = p_.antenna.gain(ray.azimuth, ray.elevation);
+      cells_.push_back(ray);
       SentRay& sent = pattern_.emplace_back();
       sent.direction = direction_of(ray.azimuth, ray.elevation);
       sent.spread = lobe_in_cells * std::max(ray.azimuth_cell, ray.elevation_cell);
       sent.gain = gain;
       sent.share = ray.share;
       sent.side = ray.side;
-      printed_sum += gain / sent.direction.x;
+      if (ray.share > 0.0) printed_sum += gain / sent.direction.x;
     }
     printed_unit_ = 1.0 / printed_sum;
     resolution_ = p_.receiver.bandwidth_ghz > 0.0 ? 0.5 * light_speed / (1e9 * p_.receiver.bandwidth_ghz) : p_.receiver.bin_size_m;
@@ -123,7 +125,7 @@ class Radar final : public Sensor {
   SentRay sent_ray(std::size_t ray, const Pose& sensor, const glm::dmat3& turn, const Random& random, std::uint64_t number) const {
     const std::size_t beam = ray / rays_per_beam(), which = pattern_index(beam, ray % rays_per_beam(), random, number);
     SentRay sent = pattern_[which];
-    const SubRay& middle = p_.antenna.rays()[which];
+    const SubRay& middle = cells_[which];
     sent.number = static_cast<std::uint32_t>(beam * pattern_.size() + which);
     sent.beam_azimuth = p_.antenna.beam_azimuths()[beam];
     double azimuth = middle.azimuth, elevation = middle.elevation;
@@ -348,6 +350,7 @@ class Radar final : public Sensor {
   Receiver receiver_;
   double floor_power_;
   std::vector<SentRay> pattern_;  ///< of a beam, in its own frame
+  std::vector<SubRay> cells_;     ///< of these
   double printed_unit_ = 1.0;     ///< I_m of eq. 4.2: a metal plate at range_max_m that fills the opening squarely is 1 in all
   double resolution_ = 0.0;       ///< m
 };

@@ -27,7 +27,7 @@ struct ScanMaker {
   }
 };
 
-Echo echo(double range, Edge edge) { return {range, 1.0f, 1.0f, edge}; }
+Echo echo(double range, Edge edge) { return {range, 1.0f, 1.0f, 0.0f, edge}; }
 
 enum class Seen { nothing, free, through, occupied };
 
