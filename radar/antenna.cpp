@@ -103,8 +103,8 @@ Antenna::Antenna(const LobeRadarSpec& spec) : azimuths_{0.0}, lobe_(true), secti
     for (std::int64_t column = 0; column < columns; ++column) {
       ray.azimuth = middle_of(column, columns, opening_.x);
       if (std::abs(ray.azimuth) - 0.5 * ray.azimuth_cell >= reach) continue;
-      const double g = gain(ray.azimuth, ray.elevation);
-      ray.share = g * g * std::cos(ray.elevation);
+      ray.gain = gain(ray.azimuth, ray.elevation);
+      ray.share = ray.gain * ray.gain * std::cos(ray.elevation);
       ray.index = static_cast<std::uint32_t>(rays_.size());
       rays_.push_back(ray);
     }
@@ -126,8 +126,8 @@ SubRay Antenna::jittered(const SubRay& ray, const std::array<double, 2>& u) cons
   moved.azimuth += (u[0] - 0.5) * ray.azimuth_cell;
   if (lobe_) {
     moved.elevation += (u[1] - 0.5) * ray.elevation_cell;
-    const double g = gain(moved.azimuth, moved.elevation);
-    moved.share = two_way_solid_angle_ > 0.0 ? g * g * std::cos(moved.elevation) * ray.azimuth_cell * ray.elevation_cell / two_way_solid_angle_ : 0.0;
+    moved.gain = gain(moved.azimuth, moved.elevation);
+    moved.share = two_way_solid_angle_ > 0.0 ? moved.gain * moved.gain * std::cos(moved.elevation) * ray.azimuth_cell * ray.elevation_cell / two_way_solid_angle_ : 0.0;
   } else if (rows_opening_ > 0.0) {
     moved.elevation += (u[1] - 0.5) * ray.elevation_cell;
     moved.share = std::cos(moved.elevation) * ray.elevation_cell / (2.0 * std::sin(0.5 * rows_opening_) * in_row_);

@@ -19,6 +19,7 @@ struct SubRay {
   double azimuth_cell = 0.0, elevation_cell = 0.0;  ///< rad, full widths of its cell (of a cone's ray: of a square as large as its cell, or as high as its row)
   double lateral = 0.0;   ///< m, how far left of the sensor it starts (parallel side rays)
   double share = 1.0;     ///< of what a beam-filling target returns: g^2 (two-way) times the cell's solid angle, over the integral of g^2 over the opening
+  double gain = 1.0;      ///< one-way, along it
   std::int8_t side = 0;   ///< +1 the left side ray, -1 the right one
   std::uint32_t index = 0;  ///< its place in `rays`
 };

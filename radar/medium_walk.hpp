@@ -30,14 +30,16 @@ struct Surface {
 class MediumWalk {
  public:
   /// `slab_max`: thickness in m up to which a solid in the open that has two parallel faces is one surface, with the open behind it; 0: none is.
-  MediumWalk(const World& world, std::span<const WaveMaterial> materials, double slab_max) : world_(world), materials_(materials), slab_max_(slab_max) {}
+  MediumWalk(const Scene& scene, std::span<const WaveMaterial> materials, double slab_max) : scene_(scene), materials_(materials), slab_max_(slab_max) {}
 
   /// What the ray starts in; null is the open.
   const WaveMaterial* start(std::span<const Crossing> crossings) {
     crossings_ = crossings;
     events_.clear();
     active_.clear();
+    media_.clear();
     for (std::uint32_t i = 0; i < crossings.size(); ++i) {
+      media_.push_back(&materials_[scene_.material(crossings[i].solid)]);
       if (crossings[i].starts_inside) active_.push_back(i);
       else events_.push_back({crossings[i].enter, i, true});
       events_.push_back({crossings[i].leave, i, false});
@@ -95,19 +97,15 @@ class MediumWalk {
     bool enters;
   };
 
-  std::uint32_t material_index(std::uint32_t c) const { return world_.solids[crossings_[c].solid].material; }
-  const WaveMaterial* material(std::uint32_t c) const { return c == open_space ? nullptr : &materials_[material_index(c)]; }
-  bool same(std::uint32_t a, std::uint32_t b) const {
-    if (a == open_space || b == open_space) return a == b;
-    return material_index(a) == material_index(b);
-  }
+  const WaveMaterial* material(std::uint32_t c) const { return c == open_space ? nullptr : media_[c]; }
+  bool same(std::uint32_t a, std::uint32_t b) const { return material(a) == material(b); }
   double density(std::uint32_t c) const { return c == open_space ? 0.0 : material(c)->density; }
 
   /// The crossing that counts among those that are active; crossings come in a fixed order, so ties are settled the same way every time.
   std::uint32_t strongest() const {
     std::uint32_t best = open_space;
     for (const std::uint32_t c : active_)
-      if (best == open_space || density(c) > density(best) || (density(c) == density(best) && material_index(c) < material_index(best))) best = c;
+      if (best == open_space || density(c) > density(best) || (density(c) == density(best) && media_[c] < media_[best])) best = c;
     return best;
   }
 
@@ -134,12 +132,13 @@ class MediumWalk {
     return alone && (next.range - surface.range) * surface.cosine <= slab_max_ && glm::dot(crossing.enter_normal, crossing.leave_normal) < -0.999;
   }
 
-  const World& world_;
+  const Scene& scene_;
   std::span<const WaveMaterial> materials_;
   double slab_max_;
   std::span<const Crossing> crossings_;
   std::vector<Event> events_;            // scratch, used again for each ray
   std::vector<std::uint32_t> active_;
+  std::vector<const WaveMaterial*> media_;  // of the crossings
   std::uint32_t medium_ = open_space;
 };
 

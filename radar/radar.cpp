@@ -7,9 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "antenna.hpp"
 #include "mount.hpp"
-#include "ray_tracer.hpp"
+#include "ray_sampler.hpp"
 #include "receiver.hpp"
 #include "sensors.hpp"
 
@@ -19,15 +18,12 @@ namespace {
 /// Rays are traced in tasks of this many, whatever the number of threads; fewer stay on one core, since starting the others costs more than it saves (measured, tests/bench).
 constexpr std::size_t rays_per_task = 512;
 
-/// How wide, in cells, the specular lobe of a mirror is taken at least (`spread`): narrow enough to fade with the tilt, wide enough that a regular grid of rays sums it to 0.02 dB.
-constexpr double lobe_in_cells = 0.8;
-
 /// Which of the rays of a row of a beam give what it returns.
-enum class Choice { all, equal, incidence, strongest };
+enum class Choice { all, drawn, incidence, strongest };
 
 Choice choice_of(const ScanningRadarSpec& spec) {
   if (spec.divergence != "side_rays" || spec.side_choice == "sum") return Choice::all;
-  return spec.side_choice == "equal" ? Choice::equal : spec.side_choice == "incidence" ? Choice::incidence : Choice::strongest;
+  return spec.side_choice == "equal" ? Choice::drawn : spec.side_choice == "incidence" ? Choice::incidence : Choice::strongest;
 }
 
 /// What both kinds of radars hold.
@@ -35,9 +31,9 @@ struct Parts {
   MountedSpec mounted;
   RadarSpec wave;
   ReceiverSpec receiver;
-  Antenna antenna;
+  RaySampler sampler;
   Choice choice = Choice::all;
-  std::size_t row = 1;           ///< rays of a row, of which one is chosen
+  std::size_t row = 1;           ///< traced rays of a row, of which one is chosen
   bool ray_beams = false;        ///< traced, every ray is a beam of its own (a lobe)
   bool first_echo_only = false;
 };
@@ -45,22 +41,17 @@ struct Parts {
 class Radar final : public Sensor {
  public:
   Radar(Parts parts, std::uint16_t index)
-      : Sensor(parts.mounted), p_(std::move(parts)), index_(index), mount_(mount_of(p_.mounted)), received_(p_.receiver.echoes == "receiver"), jitter_(p_.wave.sampling == "jitter"),
-        printed_(p_.wave.law == "printed"), receiver_(p_.receiver, p_.wave, p_.mounted.range_min_m, p_.mounted.range_max_m), floor_power_(std::pow(10.0, 0.1 * p_.wave.detection_floor_db)) {
+      : Sensor(parts.mounted), p_(std::move(parts)), index_(index), mount_(mount_of(p_.mounted)), received_(p_.receiver.echoes == "receiver"), printed_(p_.wave.law == "printed"),
+        receiver_(p_.receiver, p_.wave, p_.mounted.range_min_m, p_.mounted.range_max_m), floor_power_(std::pow(10.0, 0.1 * p_.wave.detection_floor_db)) {
+    const std::size_t in_beam = p_.sampler.traits().size() / azimuths().size();
     double printed_sum = 0.0;
-    for (const SubRay& ray : p_.antenna.rays()) {
-      if (ray.share == 0.0 && !jitter_) continue;  // on the border of an elliptic section
-      const double gain = p_.antenna.gain(ray.azimuth, ray.elevation);
-      cells_.push_back(ray);
-      SentRay& sent = pattern_.emplace_back();
-      sent.direction = direction_of(ray.azimuth, ray.elevation);
-      sent.spread = lobe_in_cells * std::max(ray.azimuth_cell, ray.elevation_cell);
-      sent.gain = gain;
-      sent.share = ray.share;
-      sent.side = ray.side;
-      if (ray.share > 0.0) printed_sum += gain / sent.direction.x;
-    }
+    for (const SubRay& ray : p_.sampler.antenna().rays())
+      if (ray.share > 0.0) printed_sum += ray.gain / (std::cos(ray.elevation) * std::cos(ray.azimuth));
     printed_unit_ = 1.0 / printed_sum;
+    for (std::size_t i = 0; i < p_.sampler.traits().size(); ++i)
+      if (p_.ray_beams) nominal_.push_back(beam_along(p_.sampler.directions()[i]));
+      else if (i % in_beam == 0) nominal_.push_back(beam_towards(azimuths()[i / in_beam]));
+    if (received_ && p_.ray_beams) nominal_ = {beam_towards(0.0)};
     resolution_ = p_.receiver.bandwidth_ghz > 0.0 ? 0.5 * light_speed / (1e9 * p_.receiver.bandwidth_ghz) : p_.receiver.bin_size_m;
   }
 
@@ -73,24 +64,26 @@ class Radar final : public Sensor {
     head(spec(), mount_, index_, time, number, scan);
     const Pose sensor = platform.pose * mount_;
     const glm::dvec3 velocity = platform.velocity + glm::cross(platform.turn_rate, sensor.position - platform.pose.position);
-    const TraceContext context(scene, p_.wave, spec().range_min_m, spec().range_max_m, p_.antenna, sensor, velocity, random, number);
+    const TraceContext context(scene, p_.wave, spec().range_min_m, spec().range_max_m, p_.sampler.antenna(), sensor, velocity, random, number);
 
-    const std::size_t count = p_.antenna.beam_azimuths().size() * rays_per_beam();
-    std::vector<SentRay> sent(count);
-    std::vector<Traced> traced((count + rays_per_task - 1) / rays_per_task);
-    const glm::dmat3 turn = glm::mat3_cast(sensor.orientation);
+    const std::size_t count = p_.sampler.count();
+    Result result;
+    result.rays.resize(count);
+    result.own_traits.resize(p_.sampler.always_the_same() ? 0 : count);
+    result.traits = p_.sampler.always_the_same() ? p_.sampler.traits() : std::span<const RayTraits>(result.own_traits);
+    result.traced.resize((count + rays_per_task - 1) / rays_per_task);
     const auto task = [&](std::size_t t) {
-      const std::size_t first = t * rays_per_task, end = std::min(count, first + rays_per_task);
-      for (std::size_t i = first; i < end; ++i) sent[i] = sent_ray(i, sensor, turn, random, number);
-      trace_rays(context, std::span(sent).subspan(first, end - first), traced[t]);
+      const std::size_t first = t * rays_per_task, size = std::min(count - first, rays_per_task);
+      const std::span<Ray> rays = std::span(result.rays).subspan(first, size);
+      p_.sampler.sample(first, sensor, spec().range_max_m, random, number, rays, result.own_traits.empty() ? std::span<RayTraits>() : std::span(result.own_traits).subspan(first, size));
+      trace_rays(context, rays, result.traits.subspan(first, size), result.traced[t]);
     };
-    if (traced.size() == 1) task(0);
-    else tbb::parallel_for(std::size_t{0}, traced.size(), task);
-    for (const Traced& part : traced) scan.rays += part.count;
+    if (result.traced.size() == 1) task(0);
+    else tbb::parallel_for(std::size_t{0}, result.traced.size(), task);
+    for (const Traced& part : result.traced) scan.rays += part.count;
 
-    const Result result{sent, traced};
     if (received_) receive(context, result, scan);
-    else if (p_.ray_beams || rays_per_beam() == 1) take_rays_as_beams(result, turn, scan);
+    else if (p_.ray_beams || p_.sampler.rays_per_beam() == 1) take_rays_as_beams(result, sensor, scan);
     else join_rays(result, random, number, scan);
     if (!received_) finish_beams(random, scan);
   }
@@ -98,8 +91,10 @@ class Radar final : public Sensor {
  private:
   /// The rays of a scan and what came of them.
   struct Result {
-    const std::vector<SentRay>& sent;
-    const std::vector<Traced>& traced;
+    std::vector<Ray> rays;
+    std::vector<RayTraits> own_traits;
+    std::span<const RayTraits> traits;
+    std::vector<Traced> traced;
 
     const RayEnd& end(std::size_t ray) const { return traced[ray / rays_per_task].rays[ray % rays_per_task]; }
     std::span<const Echo> echoes(std::size_t ray) const {
@@ -108,48 +103,19 @@ class Radar final : public Sensor {
     }
   };
 
-  static glm::dvec3 direction_of(double azimuth, double elevation) {
-    return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
-  }
+  const std::vector<double>& azimuths() const { return p_.sampler.antenna().beam_azimuths(); }
 
-  std::size_t rays_per_beam() const { return p_.choice == Choice::equal ? pattern_.size() / p_.row : pattern_.size(); }
-
-  /// Which ray of the pattern is meant by the `slot`-th ray of a beam.
-  std::size_t pattern_index(std::size_t beam, std::size_t slot, const Random& random, std::uint64_t number) const {
-    if (p_.choice != Choice::equal) return slot;
-    // Choose first, trace one (2012: each of the three rays has an equal chance to give the range).
-    const double chance = random.uniform(number, static_cast<std::uint32_t>(beam), RandomUse::ray_choice, static_cast<std::uint32_t>(slot))[0];
-    return slot * p_.row + std::min(p_.row - 1, static_cast<std::size_t>(chance * static_cast<double>(p_.row)));
-  }
-
-  SentRay sent_ray(std::size_t ray, const Pose& sensor, const glm::dmat3& turn, const Random& random, std::uint64_t number) const {
-    const std::size_t beam = ray / rays_per_beam(), which = pattern_index(beam, ray % rays_per_beam(), random, number);
-    SentRay sent = pattern_[which];
-    const SubRay& middle = cells_[which];
-    sent.number = static_cast<std::uint32_t>(beam * pattern_.size() + which);
-    sent.beam_azimuth = p_.antenna.beam_azimuths()[beam];
-    double azimuth = middle.azimuth, elevation = middle.elevation;
-    if (jitter_) {
-      const auto u = random.uniform(number, static_cast<std::uint32_t>(beam), RandomUse::sampling, static_cast<std::uint32_t>(which / 2));
-      const SubRay placed = p_.antenna.jittered(middle, which % 2 ? std::array{u[2], u[3]} : std::array{u[0], u[1]});
-      azimuth = placed.azimuth;
-      elevation = placed.elevation;
-      sent.share = placed.share;
-      sent.gain = p_.antenna.gain(azimuth, elevation);
-    }
-    const bool middle_of_axis = !jitter_ && sent.beam_azimuth == 0.0;
-    const glm::dvec3 local = middle_of_axis ? sent.direction : direction_of(sent.beam_azimuth + azimuth, elevation);
-    sent.direction = turn * local;
-    sent.origin = sensor.position;
-    if (middle.lateral != 0.0) sent.origin += turn * (middle.lateral * glm::dvec3(-std::sin(sent.beam_azimuth), std::cos(sent.beam_azimuth), 0.0));
-    return sent;
-  }
-
-  Beam beam_towards(double azimuth, double elevation) const {
+  static Beam beam_towards(double azimuth) {
     Beam beam;
     beam.azimuth = azimuth;
-    beam.elevation = elevation;
-    beam.direction = direction_of(azimuth, elevation);
+    beam.direction = {std::cos(azimuth), std::sin(azimuth), 0.0};
+    return beam;
+  }
+  static Beam beam_along(const glm::dvec3& direction) {
+    Beam beam;
+    beam.direction = direction;
+    beam.azimuth = std::atan2(direction.y, direction.x);
+    beam.elevation = std::asin(std::clamp(direction.z, -1.0, 1.0));
     return beam;
   }
 
@@ -161,36 +127,37 @@ class Radar final : public Sensor {
     scan.beams.push_back(beam);
   }
 
-  void take_rays_as_beams(const Result& result, const glm::dmat3& turn, Scan& scan) const {
-    scan.beams.reserve(result.sent.size());
-    for (std::size_t i = 0; i < result.sent.size(); ++i) {
-      const SentRay& sent = result.sent[i];
-      const RayEnd& end = result.end(i);
-      Beam beam = beam_towards(sent.beam_azimuth, 0.0);
-      if (p_.ray_beams) {
-        beam.direction = jitter_ ? glm::transpose(turn) * sent.direction : pattern_[i].direction;
-        beam.azimuth = std::atan2(beam.direction.y, beam.direction.x);
-        beam.elevation = std::asin(std::clamp(beam.direction.z, -1.0, 1.0));
+  void take_rays_as_beams(const Result& result, const Pose& sensor, Scan& scan) const {
+    scan.beams.reserve(result.rays.size());
+    const glm::dmat3 back = glm::mat3_cast(glm::inverse(sensor.orientation));
+    const bool moved = p_.ray_beams && !p_.sampler.always_the_same();
+    for (const Traced& part : result.traced) {
+      const auto first = static_cast<std::uint32_t>(scan.echoes.size());
+      scan.echoes.insert(scan.echoes.end(), part.echoes.begin(), part.echoes.end());
+      for (const RayEnd& end : part.rays) {
+        const std::size_t i = scan.beams.size();
+        Beam& beam = scan.beams.emplace_back(moved ? beam_along(back * result.rays[i].direction) : nominal_[i]);
+        beam.side = result.traits[i].side;
+        beam.first_echo = first + end.first_echo;
+        beam.echo_count = end.echo_count;
+        beam.sensed_range = end.sensed_range;
+        beam.end = end.end;
+        beam.starts_inside = end.starts_inside;
       }
-      beam.side = sent.side;
-      beam.sensed_range = end.sensed_range;
-      beam.end = end.end;
-      beam.starts_inside = end.starts_inside;
-      add_beam(beam, result.echoes(i), scan);
     }
   }
 
   /// What a ray's echo counts for in its beam: a power, or under the printed law an amplitude.
-  double strength(const SentRay& sent, const Echo& echo) const {
+  double strength(const RayTraits& ray, const Echo& echo) const {
     const double amplitude = echo.amplitude;
-    return printed_ ? printed_unit_ * sent.gain * amplitude : sent.share * amplitude * amplitude;
+    return printed_ ? printed_unit_ * static_cast<double>(ray.gain) * amplitude : static_cast<double>(ray.share) * amplitude * amplitude;
   }
 
   /// The rays of a beam that count: all, or one of each row.
   void choose_rays(const Result& result, std::size_t beam, const Random& random, std::uint64_t number, std::vector<std::size_t>& chosen) const {
     chosen.clear();
-    const std::size_t first = beam * rays_per_beam(), end = first + rays_per_beam();
-    if (p_.choice == Choice::all || p_.choice == Choice::equal) {
+    const std::size_t first = beam * p_.sampler.rays_per_beam(), end = first + p_.sampler.rays_per_beam();
+    if (p_.choice == Choice::all || p_.choice == Choice::drawn) {
       for (std::size_t ray = first; ray < end; ++ray) chosen.push_back(ray);
       return;
     }
@@ -217,7 +184,7 @@ class Radar final : public Sensor {
   }
 
   /// How much a chosen ray stands for: for its whole row, where one was chosen of it.
-  double standing_for() const { return p_.choice == Choice::all ? 1.0 : static_cast<double>(p_.row); }
+  double standing_for() const { return static_cast<double>(p_.choice == Choice::all ? 1 : p_.choice == Choice::drawn ? p_.sampler.drawn_from() : p_.row); }
 
   /// Beams of several rays: echoes that the receiver's bandwidth does not tell apart are one.
   void join_rays(const Result& result, const Random& random, std::uint64_t number, Scan& scan) const {
@@ -228,10 +195,10 @@ class Radar final : public Sensor {
     std::vector<std::size_t> chosen;
     std::vector<Member> members;
     std::vector<Echo> joined;
-    for (std::size_t b = 0; b < p_.antenna.beam_azimuths().size(); ++b) {
+    for (std::size_t b = 0; b < azimuths().size(); ++b) {
       choose_rays(result, b, random, number, chosen);
-      Beam beam = beam_towards(p_.antenna.beam_azimuths()[b], 0.0);
-      beam.side = chosen.size() == 1 ? result.sent[chosen[0]].side : std::int8_t{0};
+      Beam beam = nominal_[b];
+      beam.side = chosen.size() == 1 ? result.traits[chosen[0]].side : std::int8_t{0};
       members.clear();
       for (const std::size_t ray : chosen) {
         const RayEnd& end = result.end(ray);
@@ -240,7 +207,7 @@ class Radar final : public Sensor {
           beam.end = end.end;
         }
         beam.starts_inside = beam.starts_inside || end.starts_inside;
-        for (const Echo& echo : result.echoes(ray)) members.push_back({echo, standing_for() * strength(result.sent[ray], echo)});
+        for (const Echo& echo : result.echoes(ray)) members.push_back({echo, standing_for() * strength(result.traits[ray], echo)});
       }
       std::stable_sort(members.begin(), members.end(), [](const Member& x, const Member& y) { return x.echo.range < y.echo.range; });
       joined.clear();
@@ -273,7 +240,7 @@ class Radar final : public Sensor {
 
   /// As the receiver sees it: a profile for each beam, and its detections.
   void receive(const TraceContext& context, const Result& result, Scan& scan) const {
-    const std::size_t beams = p_.antenna.beam_azimuths().size();
+    const std::size_t beams = azimuths().size();
     receiver_.start(beams, scan.profiles);
     std::vector<std::vector<Echo>> detections(beams);
     const Ground ground = p_.receiver.floor_gate ? ground_below(context) : Ground{};
@@ -284,17 +251,17 @@ class Radar final : public Sensor {
       returns.reserve(2 * chosen.size());
       for (const std::size_t ray : chosen) {
         for (const Echo& echo : result.echoes(ray))
-          returns.push_back({echo.range, static_cast<float>(standing_for() * strength(result.sent[ray], echo)), echo.radial_velocity});
-        if (ground.material) add_ground(context, ground, result.sent[ray], from_ground);
+          returns.push_back({echo.range, static_cast<float>(standing_for() * strength(result.traits[ray], echo)), echo.radial_velocity});
+        if (ground.material) add_ground(context, ground, result.rays[ray], result.traits[ray], from_ground);
       }
       receiver_.receive(returns, from_ground, context.random, context.scan, static_cast<std::uint32_t>(b), scan.profiles, detections[b]);
     };
     if (beams == 1) one_beam(0);
     else tbb::parallel_for(std::size_t{0}, beams, one_beam);
-    scan.azimuth_opening = p_.antenna.opening().x;
-    scan.elevation_opening = p_.antenna.opening().y;
+    scan.azimuth_opening = p_.sampler.antenna().opening().x;
+    scan.elevation_opening = p_.sampler.antenna().opening().y;
     for (std::size_t b = 0; b < beams; ++b) {
-      Beam beam = beam_towards(p_.antenna.beam_azimuths()[b], 0.0);
+      Beam beam = nominal_[b];
       // A receiver cannot tell what stopped the wave: it knows nothing of what lies behind its last detection.
       beam.end = detections[b].empty() ? BeamEnd::open : BeamEnd::stopped;
       beam.sensed_range = detections[b].empty() ? spec().range_max_m : detections[b].back().range;
@@ -315,14 +282,14 @@ class Radar final : public Sensor {
     return {hit.range, &context.materials[context.scene.world().solids[hit.solid].material]};
   }
   /// What a ray would bring back from the ground if nothing else were there.
-  void add_ground(const TraceContext& context, const Ground& ground, const SentRay& sent, std::vector<Return>& returns) const {
-    const double cosine = -sent.direction.z;
+  void add_ground(const TraceContext& context, const Ground& ground, const Ray& ray, const RayTraits& traits, std::vector<Return>& returns) const {
+    const double cosine = -ray.direction.z;
     if (!(cosine > 0.0)) return;
-    const double range = (ground.depth + (sent.origin.z - context.sensor.position.z)) / cosine;
+    const double range = (ground.depth + (ray.origin.z - context.sensor.position.z)) / cosine;
     if (!(range > 0.0) || range > spec().range_max_m) return;
-    const double ratio = range / spec().range_max_m, back = backscatter(*ground.material, ground.material->reflectivity, cosine, sent.spread);
-    const double power = printed_ ? printed_unit_ * sent.gain * cosine * ratio * ratio * std::sqrt(ground.material->reflectivity)
-                                  : sent.share * back / (p_.wave.range_compensation ? 1.0 : ratio * ratio);
+    const double ratio = range / spec().range_max_m, back = backscatter(*ground.material, ground.material->reflectivity, cosine, traits.spread);
+    const double power = printed_ ? printed_unit_ * static_cast<double>(traits.gain) * cosine * ratio * ratio * std::sqrt(ground.material->reflectivity)
+                                  : static_cast<double>(traits.share) * back / (p_.wave.range_compensation ? 1.0 : ratio * ratio);
     returns.push_back({range, static_cast<float>(power), 0.0f});
   }
 
@@ -346,32 +313,33 @@ class Radar final : public Sensor {
   Parts p_;
   std::uint16_t index_;
   Pose mount_;
-  bool received_, jitter_, printed_;
+  bool received_, printed_;
   Receiver receiver_;
   double floor_power_;
-  std::vector<SentRay> pattern_;  ///< of a beam, in its own frame
-  std::vector<SubRay> cells_;     ///< of these
+  std::vector<Beam> nominal_;     ///< where the beams look
   double printed_unit_ = 1.0;     ///< I_m of eq. 4.2: a metal plate at range_max_m that fills the opening squarely is 1 in all
   double resolution_ = 0.0;       ///< m
 };
 
 template <class Spec>
-Parts parts_of(const Spec& spec) {
-  return {spec, spec, spec, Antenna(spec)};
+Parts parts_of(const Spec& spec, std::size_t drawn_from) {
+  return {spec, spec, spec, RaySampler(Antenna(spec), spec.sampling == "jitter", drawn_from)};
 }
 
 }  // namespace
 
 std::shared_ptr<const Sensor> make_radar(const ScanningRadarSpec& spec, std::uint16_t index) {
-  Parts parts = parts_of(spec);
-  parts.choice = choice_of(spec);
-  parts.row = spec.divergence == "side_rays" ? 3 : 1;
+  const Choice choice = choice_of(spec);
+  const std::size_t row = choice == Choice::all ? 1 : 3;
+  Parts parts = parts_of(spec, choice == Choice::drawn ? row : 1);
+  parts.choice = choice;
+  parts.row = choice == Choice::drawn ? 1 : row;
   parts.first_echo_only = spec.first_echo_only;
   return std::make_shared<Radar>(std::move(parts), index);
 }
 
 std::shared_ptr<const Sensor> make_radar(const LobeRadarSpec& spec, std::uint16_t index) {
-  Parts parts = parts_of(spec);
+  Parts parts = parts_of(spec, 1);
   parts.ray_beams = true;
   return std::make_shared<Radar>(std::move(parts), index);
 }

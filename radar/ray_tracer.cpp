@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -11,16 +12,15 @@ namespace {
 
 constexpr double nearest = 0.01;  // m: the 1/R^2 of what is nearer is that of 1 cm
 
-double from_db(double db) { return std::pow(10.0, 0.1 * db); }
+double from_db(double db) { return std::exp((0.1 * std::numbers::ln10) * db); }
 
 /// A wave on a leg of its way out.
 struct Leg {
-  Ray ray;
   std::uint32_t index = 0;      ///< of the ray that was sent, in the span
   double length = 0.0;          ///< m, of the legs before
   double excess = 0.0;          ///< m, by which these seemed longer
-  double passed = 1.0;          ///< power that interfaces and mirrors let through so far, one way
-  double loss_db = 0.0;         ///< inside matter so far, one way
+  double one_way = 1.0;         ///< fraction of the power that gets to the beginning of this leg
+  double loss_db = 0.0;         ///< of that inside matter, for the penetration budget
   double rate = 0.0;            ///< m/s, at which the way out so far grows
   std::uint8_t bounces = 1;     ///< surfaces met at the end of this leg
 };
@@ -37,25 +37,21 @@ struct LookBack {
 
 class RayTracer {
  public:
-  RayTracer(const TraceContext& context, std::span<const SentRay> sent, Traced& traced)
-      : c_(context), sent_(sent), traced_(traced), walk_(context.scene.world(), context.materials, context.radar.slab_max_m) {}
+  RayTracer(const TraceContext& context, std::span<const RayTraits> traits, Traced& traced)
+      : c_(context), traits_(traits), traced_(traced), walk_(context.scene, context.materials, context.radar.slab_max_m) {}
 
-  void trace() {
+  void trace(std::span<const Ray> rays) {
     traced_.echoes.clear();
-    traced_.rays.assign(sent_.size(), {});
+    traced_.echoes.reserve(rays.size());
+    traced_.rays.resize(rays.size());
     traced_.count = 0;
-    rays_.reserve(sent_.size());
-    for (const SentRay& ray : sent_) rays_.push_back({ray.origin, ray.direction, c_.range_max});
-    const bool multipath = c_.radar.bounces_max > 1;
-    if (multipath) owners_.reserve(2 * sent_.size());
-    trace_all(rays_, [&](std::uint32_t i) {
+    trace_all(rays, [&](std::uint32_t i) {
       Leg leg;
-      leg.ray = rays_[i];
       leg.index = i;
-      if (c_.radar.radial_velocity) leg.rate = -glm::dot(c_.velocity, leg.ray.direction);
+      if (c_.radar.radial_velocity) leg.rate = -glm::dot(c_.velocity, rays[i].direction);
       return leg;
     });
-    if (multipath) bounce();
+    if (c_.radar.bounces_max > 1) bounce();
   }
 
  private:
@@ -66,30 +62,31 @@ class RayTracer {
     if (c_.first_surface_only) {
       hits_.resize(rays.size());
       c_.scene.closest_hits(rays, Stops::everything, hits_);
-      for (std::uint32_t i = 0; i < rays.size(); ++i) follow_to_hit(leg_of(i), hits_[i]);
+      for (std::uint32_t i = 0; i < rays.size(); ++i) follow_to_hit(leg_of(i), rays[i], hits_[i]);
     } else {
       c_.scene.crossings(rays, c_.losses, c_.radar.penetration_budget_db, lists_);
-      for (std::uint32_t i = 0; i < rays.size(); ++i) follow(leg_of(i), lists_[i]);
+      for (std::uint32_t i = 0; i < rays.size(); ++i) follow(leg_of(i), rays[i], lists_[i]);
     }
   }
 
-  void follow_to_hit(const Leg& leg, const Hit& hit) {
-    begin(leg);
+  void follow_to_hit(const Leg& leg, const Ray& ray, const Hit& hit) {
+    begin(ray);
     if (hit.solid == no_solid) return finish(leg);
-    const WaveMaterial& material = c_.materials[c_.scene.world().solids[hit.solid].material];
+    const WaveMaterial& material = c_.materials[c_.scene.material(hit.solid)];
     if (hit.range == 0.0) {  // it starts inside
       end_ = {BeamEnd::exhausted, 0.0};
       starts_inside_ = material.visible;
       return finish(leg);
     }
-    Surface surface{hit.range, nullptr, &material, &material, hit.solid, hit.normal, std::min(1.0, std::abs(glm::dot(hit.normal, leg.ray.direction)))};
-    meet(leg, surface);
+    start_with(leg);
+    meet(leg, {hit.range, nullptr, &material, &material, hit.solid, hit.normal, std::min(1.0, std::abs(glm::dot(hit.normal, ray.direction)))});
     finish(leg);
   }
 
-  void follow(const Leg& leg, std::span<const Crossing> crossings) {
-    begin(leg);
+  void follow(const Leg& leg, const Ray& ray, std::span<const Crossing> crossings) {
+    begin(ray);
     if (crossings.empty()) return finish(leg);
+    start_with(leg);
     const WaveMaterial* inside = walk_.start(crossings);
     starts_inside_ = inside && inside->visible;
     if (inside && inside->opaque()) {
@@ -97,20 +94,23 @@ class RayTracer {
       return finish(leg);
     }
     walk_.walk(
-        leg.ray.direction, leg.ray.range_max, [&](const WaveMaterial& material, double from, double to) { return pass_through(leg, material, from, to); },
+        ray.direction, ray.range_max, [&](const WaveMaterial& material, double from, double to) { return pass_through(leg, material, from, to); },
         [&](const Surface& surface) { return meet(leg, surface); });
     finish(leg);
   }
 
-  void begin(const Leg& leg) {
-    passed_ = leg.passed;
+  void begin(const Ray& ray) {
+    ray_ = &ray;
+    starts_inside_ = false;
+    end_ = {BeamEnd::open, ray.range_max};
+    first_ = static_cast<std::uint32_t>(traced_.echoes.size());
+  }
+
+  void start_with(const Leg& leg) {
+    one_way_ = leg.one_way;
     loss_db_ = leg.loss_db;
     excess_ = leg.excess;
     leaves_ = 0;
-    starts_inside_ = false;
-    end_ = {BeamEnd::open, leg.ray.range_max};
-    first_ = static_cast<std::uint32_t>(traced_.echoes.size());
-    most_db_ = bearable_loss(leg.length);
   }
 
   void finish(const Leg& leg) {
@@ -118,23 +118,26 @@ class RayTracer {
     traced_.rays[leg.index] = {first_, static_cast<std::uint32_t>(traced_.echoes.size()) - first_, end_.range, end_.why, starts_inside_};
   }
 
-  /// What may be lost inside matter until the budget is used up, or a perfect diffuse reflector at this range or behind it would come back below the floor.
-  double bearable_loss(double range) const {
-    double floor = c_.floor_power / (passed_ * passed_);
-    if (!c_.radar.range_compensation && !c_.printed) floor *= std::pow(std::max(range, nearest) / c_.range_max, 2);
-    return std::min(c_.radar.penetration_budget_db, -5.0 * std::log10(floor));
+  /// Power under which a perfect diffuse reflector at a range (m, the whole way out) would not be seen, before the factor of its range.
+  double floor_at(double range) const {
+    if (c_.radar.range_compensation || c_.printed) return c_.floor_power;
+    const double ratio = std::max(range, nearest) / c_.range_max;
+    return c_.floor_power * ratio * ratio;
   }
 
-  /// A stretch inside matter. False if the wave ends in it.
+  /// A stretch inside matter. False if the wave ends in it: its budget is used up, or a perfect diffuse reflector there would come back below the floor.
   bool pass_through(const Leg& leg, const WaveMaterial& material, double from, double to) {
     if (material.crown()) return pass_leaves(leg, material, from, to);
     if (material.attenuation_db_per_m > 0.0) {
-      const double through = material.attenuation_db_per_m * (to - from);
-      if (loss_db_ + through >= most_db_) {
-        end_ = {BeamEnd::exhausted, std::min(leg.ray.range_max, from + (most_db_ - loss_db_) / material.attenuation_db_per_m)};
+      const double through = material.attenuation_db_per_m * (to - from), after = one_way_ * from_db(-through);
+      const double floor = floor_at(leg.length + from);
+      if (loss_db_ + through >= c_.radar.penetration_budget_db || after * after <= floor) {
+        const double bearable = std::min(c_.radar.penetration_budget_db - loss_db_, -5.0 * std::log10(floor / (one_way_ * one_way_)));
+        end_ = {BeamEnd::exhausted, std::min(ray_->range_max, from + std::max(0.0, bearable) / material.attenuation_db_per_m)};
         return false;
       }
       loss_db_ += through;
+      one_way_ = after;
     }
     excess_ += (material.index - 1.0) * (to - from);
     return true;
@@ -143,13 +146,14 @@ class RayTracer {
   /// Leaves at random places: the free path between two of them is exponential (as in HELIOS++), and they point anywhere, so that those that a ray meets have cosines with the density 2 cos.
   bool pass_leaves(const Leg& leg, const WaveMaterial& crown, double from, double to) {
     for (double at = from;;) {
-      const auto u = c_.random.uniform(c_.scan, sent_[leg.index].number, RandomUse::foliage, static_cast<std::uint32_t>(leg.bounces) << 16 | (leaves_++ & 0xffffu));
+      const auto u = c_.random.uniform(c_.scan, traits_[leg.index].number, RandomUse::foliage, static_cast<std::uint32_t>(leg.bounces) << 16 | (leaves_++ & 0xffffu));
       at += -std::log(u[0]) / crown.leaves_per_m;
       if (at >= to) return true;
       const double cosine = std::sqrt(u[1]);
       if (crown.visible) add_echo(leg, at, crown.reflectivity * cosine, crown.reflectivity, cosine, Edge::thin, no_solid);
       loss_db_ += crown.leaf_loss_db;
-      if (loss_db_ >= most_db_) {
+      one_way_ *= from_db(-crown.leaf_loss_db);
+      if (loss_db_ >= c_.radar.penetration_budget_db || one_way_ * one_way_ <= floor_at(leg.length + at)) {
         end_ = {crown.leaf_loss_db == infinity ? BeamEnd::stopped : BeamEnd::exhausted, at};
         return false;
       }
@@ -163,7 +167,7 @@ class RayTracer {
     if (reflector.crown()) return true;  // its leaves are met inside
     const Interface interface = surface.slab > 0.0 ? slab_interface(reflector, c_.radar.frequency_ghz, surface.slab, surface.cosine)
                                                    : interface_between(surface.before, surface.after, reflector, surface.cosine, c_.radar.fresnel);
-    const double spread = sent_[leg.index].spread;
+    const double spread = traits_[leg.index].spread;
     if (was_matter || is_matter || (surface.slab > 0.0 && reflector.visible)) {
       const Edge edge = surface.slab > 0.0 ? Edge::thin : !was_matter ? Edge::front : is_matter ? Edge::inner : Edge::back;
       add_echo(leg, surface.range, backscatter(reflector, interface.reflectivity, surface.cosine, spread), interface.reflectivity, surface.cosine, edge, surface.solid);
@@ -174,15 +178,11 @@ class RayTracer {
       return false;
     }
     if (surface.slab > 0.0) {
-      const double inside = reflector.attenuation_db_per_m * surface.slab_path;
-      loss_db_ += inside;
-      passed_ *= interface.passed * from_db(inside);  // what passes a slab has its loss inside in it already
+      loss_db_ += reflector.attenuation_db_per_m * surface.slab_path;  // which is in what passes already
       excess_ += (reflector.index - 1.0) * surface.slab_path;
-    } else {
-      passed_ *= interface.passed;
     }
-    most_db_ = bearable_loss(leg.length + surface.range);
-    if (loss_db_ > most_db_) {
+    one_way_ *= interface.passed;
+    if (loss_db_ > c_.radar.penetration_budget_db || one_way_ * one_way_ < floor_at(leg.length + surface.range)) {
       end_ = {BeamEnd::exhausted, surface.range};
       return false;
     }
@@ -197,7 +197,7 @@ class RayTracer {
 
   /// What comes back the way it went. `sent_back`: as `backscatter` tells.
   void add_echo(const Leg& leg, double at, double sent_back, double reflectivity, double cosine, Edge edge, std::uint32_t solid) {
-    const double way = leg.length + at, two_way = passed_ * passed_ * std::pow(10.0, -0.2 * loss_db_);
+    const double way = leg.length + at, two_way = one_way_ * one_way_;
     double power = 0.0;
     if (c_.printed) {
       const double ratio = way / c_.range_max, amplitude = cosine * ratio * ratio;  // eq. 4.2 of Billdal 2018
@@ -209,14 +209,14 @@ class RayTracer {
     const double range = way + excess_;
     if (!(power >= c_.floor_power) || range < c_.range_min || range > c_.range_max) return;
     float velocity = 0.0f;
-    if (c_.radar.radial_velocity) velocity = static_cast<float>(leg.rate + moving(solid, leg, at, leg.ray.direction));
+    if (c_.radar.radial_velocity) velocity = static_cast<float>(leg.rate + moving(solid, at, ray_->direction));
     push(leg.index, {range, static_cast<float>(std::sqrt(power)), static_cast<float>(cosine), velocity, edge, leg.bounces});
   }
 
   /// How fast the way along a leg grows by the motion of the solid at its end; `change`: in minus out.
-  double moving(std::uint32_t solid, const Leg& leg, double at, const glm::dvec3& change) const {
+  double moving(std::uint32_t solid, double at, const glm::dvec3& change) const {
     if (solid == no_solid || !c_.scene.moves()) return 0.0;
-    return glm::dot(c_.scene.velocity(solid, leg.ray.origin + at * leg.ray.direction), change);
+    return glm::dot(c_.scene.velocity(solid, ray_->origin + at * ray_->direction), change);
   }
 
   void push(std::uint32_t index, const Echo& echo) {
@@ -227,61 +227,63 @@ class RayTracer {
   /// What a surface mirrors goes on, and from the second one on what it sends to the sensor is looked after.
   void scatter(const Leg& leg, const Surface& surface, const Interface& interface) {
     const WaveMaterial& reflector = *surface.reflector;
-    const glm::dvec3 in = leg.ray.direction, normal = glm::dot(surface.normal, in) > 0.0 ? -surface.normal : surface.normal;
-    const glm::dvec3 point = offset_origin(leg.ray.origin + surface.range * in, normal);
-    const double one_way = passed_ * from_db(-loss_db_), way = leg.length + surface.range;
-    if (leg.bounces > 1 && !c_.printed) look_back(leg, surface, interface, point, normal, one_way);
+    const glm::dvec3 in = ray_->direction, normal = glm::dot(surface.normal, in) > 0.0 ? -surface.normal : surface.normal;
+    const glm::dvec3 point = offset_origin(ray_->origin + surface.range * in, normal);
+    const double way = leg.length + surface.range;
+    if (leg.bounces > 1 && !c_.printed) look_back(leg, surface, interface, point, normal);
     if (leg.bounces >= c_.radar.bounces_max || reflector.diffuse >= 1.0) return;
     Leg next = leg;
-    next.passed = passed_ * (1.0 - reflector.diffuse) * interface.mirrored;
-    if (next.passed * from_db(-loss_db_) * (c_.radar.range_compensation ? 1.0 : range_factor(way, way)) < c_.floor_power || way >= c_.range_max) return;
+    next.one_way = one_way_ * (1.0 - reflector.diffuse) * interface.mirrored;
+    if (next.one_way < floor_at(way) || way >= c_.range_max) return;
     const glm::dvec3 out = glm::normalize(in - 2.0 * glm::dot(in, normal) * normal);
-    next.ray = {point, out, c_.range_max - way};
     next.length = way;
     next.excess = excess_;
     next.loss_db = loss_db_;
-    if (c_.radar.radial_velocity) next.rate = leg.rate + moving(surface.solid, leg, surface.range, in - out);
+    if (c_.radar.radial_velocity) next.rate = leg.rate + moving(surface.solid, surface.range, in - out);
     ++next.bounces;
     mirrored_.push_back(next);
+    mirrored_rays_.push_back({point, out, c_.range_max - way});
   }
 
-  void look_back(const Leg& leg, const Surface& surface, const Interface& interface, const glm::dvec3& point, const glm::dvec3& normal, double one_way) {
-    const SentRay& sent = sent_[leg.index];
+  void look_back(const Leg& leg, const Surface& surface, const Interface& interface, const glm::dvec3& point, const glm::dvec3& normal) {
+    const RayTraits& sent = traits_[leg.index];
     const glm::dvec3 to_sensor = c_.sensor.position - point;
     const double back = glm::length(to_sensor), range = 0.5 * (leg.length + surface.range + back) + 0.5 * excess_;
     if (!(back > 0.0) || range > c_.range_max || range < c_.range_min) return;
     const glm::dvec3 out = to_sensor / back;
     const WaveMaterial& reflector = *surface.reflector;
-    const double sent_back = bistatic(reflector, interface, leg.ray.direction, out, normal, sent.spread, c_.radar.fresnel);
+    const double sent_back = bistatic(reflector, interface, ray_->direction, out, normal, sent.spread, c_.radar.fresnel);
     // The diffuse share comes again by the same way in the other direction, which no ray is sent along; mirrored ways are found from both ends.
     const double again = reflector.diffuse * interface.reflectivity * std::max(0.0, glm::dot(out, normal));
-    double power = (sent_back + again) * one_way * range_factor(back, range);
+    double power = (sent_back + again) * one_way_ * range_factor(back, range);
     // The ray stands for the gain along itself, twice; what comes back by another direction has the gain of that.
     const double gain = c_.antenna.gain(beam_frame(sent, -out));
-    if (!(sent.gain > 0.0) || !(gain > 0.0)) return;
-    power *= gain / sent.gain;
+    if (!(sent.gain > 0.0f) || !(gain > 0.0)) return;
+    power *= gain / static_cast<double>(sent.gain);
     if (power < c_.floor_power) return;
     LookBack look{{point, out, back}, leg.index, power, range, static_cast<float>(std::max(0.0, glm::dot(out, normal))), 0.0f, leg.bounces};
-    if (c_.radar.radial_velocity) look.velocity = static_cast<float>(0.5 * (leg.rate + moving(surface.solid, leg, surface.range, leg.ray.direction - out) + glm::dot(c_.velocity, out)));
+    if (c_.radar.radial_velocity) look.velocity = static_cast<float>(0.5 * (leg.rate + moving(surface.solid, surface.range, ray_->direction - out) + glm::dot(c_.velocity, out)));
     looks_.push_back(look);
   }
 
   /// A direction of the world in the frame of the ray's beam.
-  glm::dvec3 beam_frame(const SentRay& sent, const glm::dvec3& direction) const {
+  glm::dvec3 beam_frame(const RayTraits& sent, const glm::dvec3& direction) const {
     const glm::dvec3 d = glm::inverse(c_.sensor.orientation) * direction;
-    const double cosine = std::cos(sent.beam_azimuth), sine = std::sin(sent.beam_azimuth);
+    const double azimuth = c_.antenna.beam_azimuths()[sent.beam];
+    const double cosine = std::cos(azimuth), sine = std::sin(azimuth);
     return {cosine * d.x + sine * d.y, -sine * d.x + cosine * d.y, d.z};
   }
 
   /// Leg after leg; then the echoes by ray and range.
   void bounce() {
     std::vector<Leg> legs;
+    std::vector<Ray> rays;
     while (!mirrored_.empty()) {
       legs.swap(mirrored_);
+      rays.swap(mirrored_rays_);
       mirrored_.clear();
-      rays_.clear();
-      for (const Leg& leg : legs) rays_.push_back(leg.ray);
-      trace_all(rays_, [&](std::uint32_t i) { return legs[i]; });
+      mirrored_rays_.clear();
+      trace_all(rays, [&](std::uint32_t i) { return legs[i]; });
     }
     arrive();
     std::vector<std::uint32_t> order(traced_.echoes.size());
@@ -346,17 +348,18 @@ class RayTracer {
   };
 
   const TraceContext& c_;
-  std::span<const SentRay> sent_;
+  std::span<const RayTraits> traits_;
   Traced& traced_;
   MediumWalk walk_;
-  std::vector<Ray> rays_;
   std::vector<Hit> hits_;
   CrossingLists lists_;
   std::vector<std::uint32_t> owners_;  // of the echoes, with multipath
   std::vector<Leg> mirrored_;
+  std::vector<Ray> mirrored_rays_;  // theirs
   std::vector<LookBack> looks_;
   // The wave on the leg that is followed.
-  double passed_ = 1.0, loss_db_ = 0.0, excess_ = 0.0, most_db_ = 0.0;
+  const Ray* ray_ = nullptr;
+  double one_way_ = 1.0, loss_db_ = 0.0, excess_ = 0.0;
   std::uint32_t leaves_ = 0, first_ = 0;
   bool starts_inside_ = false;
   End end_{BeamEnd::open, 0.0};
@@ -375,6 +378,6 @@ TraceContext::TraceContext(const Scene& in, const RadarSpec& with, double from, 
   for (const WaveMaterial& material : materials) losses.push_back(material.attenuation_db_per_m);
 }
 
-void trace_rays(const TraceContext& context, std::span<const SentRay> rays, Traced& traced) { RayTracer(context, rays, traced).trace(); }
+void trace_rays(const TraceContext& context, std::span<const Ray> rays, std::span<const RayTraits> traits, Traced& traced) { RayTracer(context, traits, traced).trace(rays); }
 
 }  // namespace thicket

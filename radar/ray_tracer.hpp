@@ -15,15 +15,14 @@
 
 namespace thicket {
 
-/// A ray that leaves the sensor.
-struct SentRay {
-  glm::dvec3 origin{0.0}, direction{1.0, 0.0, 0.0};  ///< world
-  double spread = 0.0;        ///< rad, the angle that it stands for
-  double gain = 1.0;          ///< one-way, of the antenna along it (for echoes that come back along another direction)
-  double beam_azimuth = 0.0;  ///< rad, of the axis of its beam
-  double share = 1.0;         ///< of what a target that fills the beam returns
-  std::uint32_t number = 0;   ///< of the ray in its scan, for random numbers
-  std::int8_t side = 0;       ///< of a side ray
+/// What a ray that leaves the sensor stands for.
+struct RayTraits {
+  float spread = 0.0f;       ///< rad, the angle that it stands for
+  float gain = 1.0f;         ///< one-way, of the antenna along it (for echoes that come back along another direction)
+  float share = 1.0f;        ///< of what a target that fills the beam returns
+  std::uint32_t beam = 0;
+  std::uint32_t number = 0;  ///< of the ray in its scan, for random numbers
+  std::int8_t side = 0;      ///< of a side ray
 };
 
 /// What became of one.
@@ -64,6 +63,6 @@ struct TraceContext {
 /// A wave that meets a surface comes straight back (by `backscatter`), the way it came; what is mirrored goes on, for `bounces_max` surfaces in all. From the second surface on what is sent towards the sensor
 /// directly (by `bistatic`) arrives too, with half of its whole way as range; of the diffuse part the same way in the other direction brings as much again. Without compensation powers go with
 /// (range_max / way back)^2: how the wave thins out on its way out is in the rays themselves.
-void trace_rays(const TraceContext& context, std::span<const SentRay> rays, Traced& traced);
+void trace_rays(const TraceContext& context, std::span<const Ray> rays, std::span<const RayTraits> traits, Traced& traced);
 
 }  // namespace thicket

@@ -177,6 +177,7 @@ Result<Scene> Scene::build(World world) {
 }
 
 const World& Scene::world() const { return impl_->world; }
+std::uint32_t Scene::material(std::uint32_t solid) const { return impl_->matter[solid].material; }
 bool Scene::moves() const { return !impl_->movers.empty(); }
 glm::dvec3 Scene::velocity(std::uint32_t solid, const glm::dvec3& point) const {
   const Standing now = standing_at(impl_->world.solids[solid], time_);

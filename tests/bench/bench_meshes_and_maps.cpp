@@ -191,18 +191,6 @@ World large_mesh() {
 }
 
 /// Trees of real leaves about the sensor, which is among their crowns.
-World leafy_thicket(int trees, double half_width) {
-  World world = empty_world();
-  const Foliage tree = grow_tree({});
-  Dice dice(7);
-  for (int i = 0; i < trees; ++i) {
-    const double x = dice.between(-half_width, half_width), y = dice.between(-half_width, half_width), yaw = dice.between(-pi, pi);
-    add(world, MeshSolid{tree.wood}, {x, y, -2.5}, yaw);
-    add(world, MeshSolid{tree.leaves}, {x, y, -2.5}, yaw, foliage);
-  }
-  return world;
-}
-
 void trace_thicket(benchmark::State& state, const Late<Scene>& scene, const std::vector<Ray>& rays, bool all) {
   std::vector<Hit> hits(rays.size());
   CrossingLists lists;

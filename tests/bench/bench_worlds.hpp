@@ -15,6 +15,7 @@
 #include "thicket/base/files.hpp"
 #include "thicket/base/pose.hpp"
 #include "thicket/sim/simulation.hpp"
+#include "thicket/worlds/generators.hpp"
 #include "thicket/worlds/scene.hpp"
 #include "thicket/worlds/world.hpp"
 
@@ -23,6 +24,7 @@ namespace thicket::bench {
 // One a file, called by main.
 void register_scene();
 void register_radar();
+void register_lobes();
 void register_nav();
 void register_missions();
 void register_worlds();
@@ -110,6 +112,19 @@ inline World thicket_room() {
   for (int i = 0; i < 80; ++i) {
     const glm::dvec2 at = place_in_room(dice);
     add(world, Sphere{dice.between(0.3, 1.2)}, {at.x, at.y, dice.between(0.3, 1.0)}, 0.0, foliage);
+  }
+  return world;
+}
+
+/// Trees of some 4000 leaves each, as meshes.
+inline World leafy_thicket(int trees, double half_width) {
+  World world = empty_world();
+  const Foliage tree = grow_tree({});
+  Dice dice(7);
+  for (int i = 0; i < trees; ++i) {
+    const double x = dice.between(-half_width, half_width), y = dice.between(-half_width, half_width), yaw = dice.between(-pi, pi);
+    add(world, MeshSolid{tree.wood}, {x, y, -2.5}, yaw);
+    add(world, MeshSolid{tree.leaves}, {x, y, -2.5}, yaw, foliage);
   }
   return world;
 }

@@ -78,6 +78,7 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 1;
   thicket::bench::register_scene();
   thicket::bench::register_radar();
+  thicket::bench::register_lobes();
   thicket::bench::register_nav();
   thicket::bench::register_missions();
   thicket::bench::register_worlds();

@@ -99,6 +99,8 @@ class Scene {
   static Result<Scene> build(World world);
 
   const World& world() const;
+  /// Index of a solid's material: the world's, from a list that is near at hand.
+  std::uint32_t material(std::uint32_t solid) const;
 
   /// Puts moving solids where they are at a time, s; costs nothing where nothing moves. Copies of this scene stay as they are.
   void set_time(double time);
