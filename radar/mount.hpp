@@ -13,7 +13,7 @@ inline Pose mount_of(const MountedSpec& spec) {
   return mount;
 }
 
-/// What a scan says of itself; its beams and echoes are empty afterwards.
+/// What a scan says of itself; its echoes are empty afterwards, its beams those of before.
 inline void head(const MountedSpec& spec, const Pose& mount, std::uint16_t sensor, double time, std::uint64_t number, Scan& scan) {
   scan.sensor = sensor;
   scan.number = number;
@@ -24,7 +24,6 @@ inline void head(const MountedSpec& spec, const Pose& mount, std::uint16_t senso
   scan.range_max = spec.range_max_m;
   scan.azimuth_opening = scan.elevation_opening = 0.0;
   scan.rays = 0;
-  scan.beams.clear();
   scan.echoes.clear();
   scan.profiles.bins = 0;
 }

@@ -2,6 +2,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -67,23 +68,28 @@ class Radar final : public Sensor {
     const TraceContext context(scene, p_.wave, spec().range_min_m, spec().range_max_m, p_.sampler.antenna(), sensor, velocity, random, number);
 
     const std::size_t count = p_.sampler.count();
+    const bool own_traits = !p_.sampler.always_the_same(), keep_rays = received_ && p_.receiver.floor_gate, rays_are_beams = !received_ && (p_.ray_beams || p_.sampler.rays_per_beam() == 1);
     Result result;
-    result.rays.resize(count);
-    result.own_traits.resize(p_.sampler.always_the_same() ? 0 : count);
-    result.traits = p_.sampler.always_the_same() ? p_.sampler.traits() : std::span<const RayTraits>(result.own_traits);
+    result.rays.resize(keep_rays ? count : 0);
+    result.own_traits.resize(own_traits ? count : 0);
+    result.traits = own_traits ? std::span<const RayTraits>(result.own_traits) : p_.sampler.traits();
     result.traced.resize((count + rays_per_task - 1) / rays_per_task);
+    scan.beams.resize(rays_are_beams ? count : 0);
     const auto task = [&](std::size_t t) {
       const std::size_t first = t * rays_per_task, size = std::min(count - first, rays_per_task);
-      const std::span<Ray> rays = std::span(result.rays).subspan(first, size);
-      p_.sampler.sample(first, sensor, spec().range_max_m, random, number, rays, result.own_traits.empty() ? std::span<RayTraits>() : std::span(result.own_traits).subspan(first, size));
+      std::array<Ray, rays_per_task> buffer;
+      const std::span<Ray> rays = std::span(buffer).first(size);
+      p_.sampler.sample(first, sensor, spec().range_max_m, random, number, rays, own_traits ? std::span(result.own_traits).subspan(first, size) : std::span<RayTraits>());
       trace_rays(context, rays, result.traits.subspan(first, size), result.traced[t]);
+      if (keep_rays) std::ranges::copy(rays, result.rays.begin() + static_cast<std::ptrdiff_t>(first));
+      if (rays_are_beams) take_rays_as_beams(result.traced[t], rays, result.traits.subspan(first, size), sensor, std::span(scan.beams).subspan(first, size), first);
     };
     if (result.traced.size() == 1) task(0);
     else tbb::parallel_for(std::size_t{0}, result.traced.size(), task);
     for (const Traced& part : result.traced) scan.rays += part.count;
 
     if (received_) receive(context, result, scan);
-    else if (p_.ray_beams || p_.sampler.rays_per_beam() == 1) take_rays_as_beams(result, sensor, scan);
+    else if (rays_are_beams) take_echoes(result, scan);
     else join_rays(result, random, number, scan);
     if (!received_) finish_beams(random, scan);
   }
@@ -91,8 +97,8 @@ class Radar final : public Sensor {
  private:
   /// The rays of a scan and what came of them.
   struct Result {
-    std::vector<Ray> rays;
-    std::vector<RayTraits> own_traits;
+    std::vector<Ray> rays;              ///< if the floor gate wants them
+    std::vector<RayTraits> own_traits;  ///< if this scan's are its own
     std::span<const RayTraits> traits;
     std::vector<Traced> traced;
 
@@ -127,23 +133,34 @@ class Radar final : public Sensor {
     scan.beams.push_back(beam);
   }
 
-  void take_rays_as_beams(const Result& result, const Pose& sensor, Scan& scan) const {
-    scan.beams.reserve(result.rays.size());
-    const glm::dmat3 back = glm::mat3_cast(glm::inverse(sensor.orientation));
+  /// Makes the beams of a task's rays; their echoes are counted from the task's first one.
+  void take_rays_as_beams(const Traced& traced, std::span<const Ray> rays, std::span<const RayTraits> traits, const Pose& sensor, std::span<Beam> beams, std::size_t first) const {
     const bool moved = p_.ray_beams && !p_.sampler.always_the_same();
-    for (const Traced& part : result.traced) {
-      const auto first = static_cast<std::uint32_t>(scan.echoes.size());
+    const glm::dmat3 back = moved ? glm::mat3_cast(glm::inverse(sensor.orientation)) : glm::dmat3(1.0);
+    for (std::size_t i = 0; i < beams.size(); ++i) {
+      const RayEnd& end = traced.rays[i];
+      Beam& beam = beams[i];
+      if (moved) beam = beam_along(back * rays[i].direction);
+      else beam = nominal_[first + i];
+      beam.side = traits[i].side;
+      beam.first_echo = end.first_echo;
+      beam.echo_count = end.echo_count;
+      beam.sensed_range = end.sensed_range;
+      beam.end = end.end;
+      beam.starts_inside = end.starts_inside;
+    }
+  }
+  /// The echoes of all tasks, for beams that are there already.
+  static void take_echoes(const Result& result, Scan& scan) {
+    std::size_t count = 0;
+    for (const Traced& part : result.traced) count += part.echoes.size();
+    scan.echoes.reserve(count);
+    for (std::size_t t = 0; t < result.traced.size(); ++t) {
+      const Traced& part = result.traced[t];
+      const auto before = static_cast<std::uint32_t>(scan.echoes.size());
       scan.echoes.insert(scan.echoes.end(), part.echoes.begin(), part.echoes.end());
-      for (const RayEnd& end : part.rays) {
-        const std::size_t i = scan.beams.size();
-        Beam& beam = scan.beams.emplace_back(moved ? beam_along(back * result.rays[i].direction) : nominal_[i]);
-        beam.side = result.traits[i].side;
-        beam.first_echo = first + end.first_echo;
-        beam.echo_count = end.echo_count;
-        beam.sensed_range = end.sensed_range;
-        beam.end = end.end;
-        beam.starts_inside = end.starts_inside;
-      }
+      if (before > 0)
+        for (std::size_t i = 0; i < part.rays.size(); ++i) scan.beams[t * rays_per_task + i].first_echo += before;
     }
   }
 

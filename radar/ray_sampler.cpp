@@ -74,7 +74,9 @@ void RaySampler::sample(std::size_t first, const Pose& sensor, double range_max,
       traits[i].share = static_cast<float>(placed.share);
       traits[i].gain = static_cast<float>(placed.gain);
     }
-    rays[i] = {sensor.position, turn * local, range_max};
+    rays[i].origin = sensor.position;
+    rays[i].direction = turn * local;
+    rays[i].range_max = range_max;
     if (cell.lateral != 0.0) {
       const double azimuth = antenna_.beam_azimuths()[beam];
       rays[i].origin += turn * (cell.lateral * glm::dvec3(-std::sin(azimuth), std::cos(azimuth), 0.0));

@@ -45,11 +45,11 @@ class RayTracer {
     traced_.echoes.reserve(rays.size());
     traced_.rays.resize(rays.size());
     traced_.count = 0;
-    trace_all(rays, [&](std::uint32_t i) {
-      Leg leg;
-      leg.index = i;
-      if (c_.radar.radial_velocity) leg.rate = -glm::dot(c_.velocity, rays[i].direction);
-      return leg;
+    Leg first;
+    trace_all(rays, [&](std::uint32_t i) -> const Leg& {
+      first.index = i;
+      if (c_.radar.radial_velocity) first.rate = -glm::dot(c_.velocity, rays[i].direction);
+      return first;
     });
     if (c_.radar.bounces_max > 1) bounce();
   }
@@ -283,7 +283,7 @@ class RayTracer {
       rays.swap(mirrored_rays_);
       mirrored_.clear();
       mirrored_rays_.clear();
-      trace_all(rays, [&](std::uint32_t i) { return legs[i]; });
+      trace_all(rays, [&](std::uint32_t i) -> const Leg& { return legs[i]; });
     }
     arrive();
     std::vector<std::uint32_t> order(traced_.echoes.size());

@@ -85,9 +85,8 @@ inline bool cross(const BoxPart& part, const glm::dvec3& origin, const glm::dvec
 inline glm::dvec3 part_normal(const SpherePart& part, const glm::dvec3& point, int) { return glm::normalize(point - part.centre); }
 
 inline glm::dvec3 face_normal(int face) {
-  glm::dvec3 normal(0.0);
-  normal[face / 2] = face % 2 ? 1.0 : -1.0;
-  return normal;
+  const double along = face % 2 ? 1.0 : -1.0;
+  return {face / 2 == 0 ? along : 0.0, face / 2 == 1 ? along : 0.0, face / 2 == 2 ? along : 0.0};
 }
 
 inline glm::dvec3 part_normal(const CylinderPart& part, const glm::dvec3& point, int face) {

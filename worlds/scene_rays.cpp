@@ -14,7 +14,8 @@
 namespace thicket {
 namespace {
 
-bool traceable(const Ray& ray) { return finite(ray.origin) && std::abs(glm::length(ray.direction) - 1.0) <= 1e-6 && ray.range_max >= 0.0; }  // NaN fails
+/// Of length 1 to 1e-6, which its square is to 2e-6.
+bool traceable(const Ray& ray) { return finite(ray.origin) && std::abs(glm::dot(ray.direction, ray.direction) - 1.0) <= 2e-6 && ray.range_max >= 0.0; }  // NaN fails
 
 }  // namespace
 
@@ -68,39 +69,47 @@ std::size_t Scene::Impl::trace(std::span<const Ray> rays, const Moving* moving, 
   embree::start(query);
   query.lanes = lanes.data();
   query.collect_in(collector);
+  const bool nothing = empty();
+  alignas(32) int valid[packet];
+  alignas(32) RTCRayHit8 batch;
+  for (unsigned i = 0; i < packet; ++i) {  // what Embree leaves as it is
+    batch.ray.tnear[i] = batch.ray.time[i] = 0.0f;
+    batch.ray.mask[i] = ~0u;
+    batch.ray.id[i] = i;
+    batch.ray.flags[i] = 0;
+  }
   for (std::size_t first = 0; first < rays.size(); first += packet) {
-    alignas(32) int valid[packet];
-    alignas(32) RTCRayHit8 batch;
     bool any = false;
     for (unsigned i = 0; i < packet; ++i) {
-      // Lanes without a ray get one that ends before it starts: Embree ignores `valid` where a packet is wider than the processor's vectors.
-      lanes[i] = LaneRay{};
+      LaneRay& lane = lanes[i];
       float far = -1.0f;
       valid[i] = 0;
-      if (first + i < rays.size()) {
+      if (first + i < rays.size() && traceable(rays[first + i])) {
         const Ray& ray = rays[first + i];
-        if (!traceable(ray)) {
-          ++rejected;
-        } else {
-          lanes[i] = {ray.origin - origin, ray.direction, ray.range_max, 0.0, false};
-          if (!empty() && enter(lanes[i], far)) valid[i] = -1;
-          any = any || valid[i];
+        // (Member by member: a whole one would be put together aside and copied by wider loads than its stores, which stalls.)
+        lane.origin = ray.origin - origin;
+        lane.direction = ray.direction;
+        lane.range_max = ray.range_max;
+        lane.shift = 0.0;
+        lane.to_end = false;
+        if (!nothing && enter(lane, far)) {
+          valid[i] = -1;
+          any = true;
         }
+      } else {
+        rejected += first + i < rays.size();
+        lane = LaneRay{};
       }
-      const glm::vec3 start(valid[i] ? lanes[i].origin + lanes[i].shift * lanes[i].direction : glm::dvec3(0.0));
-      const glm::vec3 along(lanes[i].direction);
+      // Lanes without a ray get one that ends before it starts: Embree ignores `valid` where a packet is wider than the processor's vectors.
+      const glm::vec3 start(valid[i] ? lane.shift == 0.0 ? lane.origin : lane.origin + lane.shift * lane.direction : glm::dvec3(0.0));
+      const glm::vec3 along(lane.direction);
       batch.ray.org_x[i] = start.x;
       batch.ray.org_y[i] = start.y;
       batch.ray.org_z[i] = start.z;
       batch.ray.dir_x[i] = along.x;
       batch.ray.dir_y[i] = along.y;
       batch.ray.dir_z[i] = along.z;
-      batch.ray.tnear[i] = 0.0f;
       batch.ray.tfar[i] = valid[i] ? far : -1.0f;
-      batch.ray.time[i] = 0.0f;
-      batch.ray.mask[i] = ~0u;
-      batch.ray.id[i] = i;
-      batch.ray.flags[i] = 0;
       batch.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       batch.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
