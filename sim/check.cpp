@@ -24,6 +24,8 @@ void warn_of_stealth(const Simulation& simulation, std::vector<std::string>& war
   const Sensor& sensor = *simulation.stage().sensors.front();
   const Hull hull = mission.vehicle.hull();
   const double ground = mission.start.z_m, plane = ground + sensor.spec().position_m.z;
+  const auto* radar = std::get_if<ScanningRadarSpec>(&mission.sensors.front());
+  const bool looks_along_plane = scanner(mission.sensors.front()) && (!radar || radar->elevation_opening_deg == 0.0);
   std::map<std::string, std::vector<std::string>> undetected;  // material -> solids
   std::vector<std::string> off_plane;
   for (const Solid& solid : world.solids) {
@@ -33,7 +35,7 @@ void warn_of_stealth(const Simulation& simulation, std::vector<std::string>& war
     if (!material.stops_motion || meets_hull <= 0.0 || extent(solid).high.z <= ground + hull.z_low) continue;
     if (!sensor.detects(material)) {
       undetected[material.name].push_back(solid.name);
-    } else if (meets_hull - half_width_between(solid, plane, plane) > 0.5 * mission.planner.clearance_m) {
+    } else if (looks_along_plane && meets_hull - half_width_between(solid, plane, plane) > 0.5 * mission.planner.clearance_m) {
       off_plane.push_back(solid.name);
     }
   }

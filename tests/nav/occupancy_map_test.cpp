@@ -201,4 +201,35 @@ TEST_CASE("for map_server the map is trinary, and what was sensed through stays 
   CHECK(grid.at(12, 0) == CellState::free);
 }
 
+TEST_CASE("a beam with an opening is free up to its echo and occupied along the whole arc") {
+  ScanMaker maker;
+  maker.scan.azimuth_opening = pi / 2;
+  maker.beam(0.0, {echo(2.0, Edge::front)}, 2.0, BeamEnd::stopped);
+  MapSpec spec;
+  spec.resolution_m = 0.1;
+  OccupancyMap map(spec);
+  map.integrate(maker.scan, Pose{});
+  for (const double bearing : {-0.7, -0.3, 0.0, 0.2, 0.75}) {
+    CAPTURE(bearing);
+    for (double r = 0.15; r < 1.8; r += 0.05) {
+      const CellView cell = map.view(map.cell_at(r * direction(bearing)));
+      CHECK(cell.known);
+      CHECK(cell.probability < 0.5);
+    }
+    CHECK(map.view(map.cell_at(2.03 * direction(bearing))).probability + map.view(map.cell_at(1.97 * direction(bearing))).probability > 0.9);
+    CHECK_FALSE(map.view(map.cell_at(2.3 * direction(bearing))).known);
+  }
+  for (const double bearing : {-1.0, 1.0, 3.0}) CHECK_FALSE(map.view(map.cell_at(1.0 * direction(bearing))).known);
+}
+
+TEST_CASE("behind a thin echo it is open again") {
+  ScanMaker maker;
+  maker.beam(0.0, {echo(1.05, Edge::thin), echo(2.05, Edge::front)}, 2.05, BeamEnd::stopped);
+  OccupancyMap map(MapSpec{});
+  map.integrate(maker.scan, Pose{});
+  CHECK(map.view(map.cell_at({1.06, 0.0})).probability > 0.5);
+  CHECK(map.view(map.cell_at({1.55, 0.0})).probability < 0.5);
+  CHECK_FALSE(map.view(map.cell_at({1.55, 0.0})).sensed_through);
+}
+
 }  // namespace thicket
