@@ -1,4 +1,6 @@
 // What a world costs before the first ray, and what meshes, movers and large maps cost afterwards.
+#include <tbb/global_control.h>
+
 #include <chrono>
 #include <ctime>
 #include <filesystem>
@@ -6,15 +8,13 @@
 #include <functional>
 #include <optional>
 
-#include "bare_embree.hpp"
+#include "bare_loops.hpp"
 #include "bench_worlds.hpp"
 #include "thicket/base/map_file.hpp"
 #include "thicket/worlds/generators.hpp"
 
 namespace thicket::bench {
 namespace {
-
-alignas(32) const int all_valid[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
 
 /// Made when first asked for: not by runs that leave it out, and not anew for every repetition.
 template <class T>
@@ -190,7 +190,6 @@ World large_mesh() {
   return world;
 }
 
-/// Trees of real leaves about the sensor, which is among their crowns.
 void trace_thicket(benchmark::State& state, const Late<Scene>& scene, const std::vector<Ray>& rays, bool all) {
   std::vector<Hit> hits(rays.size());
   CrossingLists lists;
@@ -220,6 +219,23 @@ void trace_bare(benchmark::State& state, const Late<BareScene>& bare, const std:
   per_item(state, "ray", static_cast<double>(rays.size()));
 }
 
+/// A lobe of the same rays and what it makes of them, by the default physics.
+void trace_lobe(benchmark::State& state, const Late<Scene>& scene) {
+  LobeRadarSpec spec;
+  spec.position_m = {0.0, 0.0, sensor_height};
+  spec.range_max_m = 30.0;
+  const auto sensor = make_sensor(spec, 0);
+  const Random random(1, 0);
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  Scan scan;
+  sensor->measure(*scene, Pose{}, 0.0, 0, random, scan);
+  for (auto _ : state) {
+    sensor->measure(*scene, Pose{}, 0.0, 0, random, scan);
+    benchmark::DoNotOptimize(scan.echoes.data());
+  }
+  per_item(state, "ray", 58.0 * 58.0);
+}
+
 void register_rays() {
   const std::vector<std::pair<const char*, std::function<World()>>> places = {
       {"100 mesh spheres", mesh_spheres}, {"2 meshes of 10^6", large_mesh}, {"100 leafy trees", [] { return leafy_thicket(100, 15.0); }}};
@@ -239,6 +255,7 @@ void register_rays() {
         measure(name + "/Embree triangles", [=, r = rays](benchmark::State& s) { trace_bare(s, bare, r); });
       }
     }
+    measure(std::string("lobe/") + place + "/lobe by its budget", [=](benchmark::State& s) { trace_lobe(s, scene); });
   }
 }
 
