@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes every picture of the docs anew, with the program.
+# Makes every picture of the docs anew, with the program; or those of one kind: maps, radar, worlds.
 set -euo pipefail
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 program=${THICKET_PROGRAM:-$root/thicket}
@@ -16,11 +16,41 @@ look() {
   "$program" picture "$1" --out "$root/docs/pictures/worlds/$2.png" --size 640x400 "${@:3}"
 }
 
-if [[ ${1:-all} != worlds ]]; then
+# What sensors see.
+scan() {
+  "$program" scan "$2" "${@:3}" --png "$root/docs/pictures/radar/$1.png"
+}
+
+cd -- "$root" # files of sensors are named from here
+if [[ ${1:-all} == all || $1 == radar ]]; then
+  mkdir -p -- docs/pictures/radar
+  scan penetration foliage_wall/divided_room --pose -2.6,1.475,0.4,0 --sensor usarsim2012 --sensor utm30lx --set fov_deg=180
+  scan side_rays rooms/u_room --pose -2,0,0.4,180 --sensor usarsim2012 --sensor radar/presets/usarsim2012.toml \
+    --set usarsim2012.side_offset_m=0.4 --set 'divergence="side_rays"' --set fov_deg=170 --set range_max_m=10
+  scan ghost strafe/mirror --pose 0,0,0.4,0 --sensor usarsim2012 --set bounces_max=2 --set 'scattering="material"' --compare usarsim2012
+  scan room_of_mirrors test_room/test_room --pose -1,0.5,1,0 --sensor usarsim2012 --set bounces_max=2 --set 'scattering="material"' --set fov_deg=180
+  awk 'BEGIN { print "x_m,y_m,z_m,yaw_deg,label"
+    for (t = 0; t <= 80; ++t) { a = t * 3.14159265 / 180; printf "%.6f,%.6f,1,%d,%d\n", 3 - 3 * cos(a), -3 * sin(a), t, t } }' > "$runs/tilt.csv"
+  scan tilt strafe/plate_alone --poses "$runs/tilt.csv" --x-label "tilt, deg" --sensor x4m05 --sensor radar/presets/x4m05.toml \
+    --set 'x4m05.scattering="lambert"' --set noise=0 --set bin_count=768
+  scan wire strafe/wire --pose 0,-1.2,1,0 --to 0,1.2,1,0 --steps 121 --sensor x4m05 --sensor radar/presets/x4m05.toml \
+    --set 'x4m05.sampling="regular"' --set 'scattering="lambert"' --set noise=0 --set elevation_opening_deg=20 --set elevation_rays=18 --set bin_count=768
+  for world in plate pole wire; do
+    scan "strafe_$world" "strafe/$world" --pose 0,-2,1,0 --to 0,2,1,0 --steps 81 --sensor x4m05 --set bin_count=96 --set bin_size_m=0.0514
+  done
+  scan strafe_plate45 strafe/plate45 --pose 0,-2,1,0 --to 0,2,1,0 --steps 61 --sensor x4m05 --sensor radar/presets/x4m05.toml \
+    --set 'x4m05.scattering="lambert"' --set noise=0 --set bin_count=96 --set bin_size_m=0.0514
+  scan lobe strafe/mirror --pose 0,0,0.5,0 --sensor x4m05 --set 'detection="all"' --set bin_count=192 --set bin_size_m=0.0514
+  scan smoothing strafe/mirror --pose 0,0,0.5,0 --sensor x4m05 --set smoothing_bins=15 --set noise=0.008 --compare x4m05
+  scan cfar test_room/test_room --pose 1,2.6,1,0 --sensor x4m05 --set 'detector="ca_cfar"' --set cfar_guard_bins=25 --set cfar_training_bins=50 --compare x4m05
+  scan floor_gate strafe/pole --pose 0,0.6,1,0 --sensor x4m05 --set floor_gate=true --compare x4m05
+fi
+if [[ ${1:-all} == all || $1 == maps ]]; then
   for mission in foliage_wall/{bug1,bug2,closed,smoke,map_radar,map_lidar} rooms/{convex,u,spiral}; do map "$mission"; done
   map thicket/look_through thicket_radar
   map thicket/look_through_lidar thicket_lidar
 fi
+[[ ${1:-all} == all || $1 == worlds ]] || exit 0
 mkdir -p -- "$root/docs/pictures/worlds"
 for solid in box sphere cylinder wall prism map tilted smoke; do look "solids/$solid" "$solid"; done
 look solids/mesh mesh --from -4.9,-7.1,3.3 --at 0,-0.9,0.5 --fov-deg 43

@@ -193,7 +193,7 @@ std::vector<Top> strongest_tops(const Profiles& profiles, std::size_t beam, std:
   std::vector<Top> tops;
   const auto amplitude = profiles.amplitude_of(beam);
   for (std::size_t i = 0; i < amplitude.size(); ++i) {
-    if ((i > 0 && amplitude[i] <= amplitude[i - 1]) || (i + 1 < amplitude.size() && amplitude[i] < amplitude[i + 1])) continue;
+    if (!(amplitude[i] > 0.0f) || (i > 0 && amplitude[i] <= amplitude[i - 1]) || (i + 1 < amplitude.size() && amplitude[i] < amplitude[i + 1])) continue;
     tops.push_back({profiles.range(static_cast<std::uint32_t>(i)), amplitude[i], profiles.threshold.empty() ? 0.0 : profiles.threshold_of(beam)[i]});
   }
   std::stable_sort(tops.begin(), tops.end(), [](const Top& a, const Top& b) { return a.amplitude > b.amplitude; });
