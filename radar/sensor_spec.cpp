@@ -130,10 +130,15 @@ void check_order(const Node& entry, const char* key, const std::vector<glm::dvec
   }
 }
 
-void check_radar(const Node& entry, const RadarSpec& radar, const ReceiverSpec& receiver, double range_max, Faults& faults) {
+void check_radar(const Node& entry, const RadarSpec& radar, const ReceiverSpec& receiver, double range_max, double range_noise, bool first_echo_only, Faults& faults) {
   const auto place = [&](const char* key) { return entry.find(key) ? entry.find(key)->place : entry.place; };
   if (radar.law == "printed" && receiver.signal == "iq")
     faults.add(place("signal"), "'signal' is 'iq', but the printed law has no phases, expected 'amplitude', or law = 'radar_equation'");
+  const auto only_traced = [&](const char* key, const char* instead) {
+    faults.add(place(key), fmt::format("'{}' does nothing to what a receiver detects, expected {}, or echoes = 'traced'", key, instead));
+  };
+  if (receiver.echoes == "receiver" && first_echo_only) only_traced("first_echo_only", "detection = 'first'");
+  if (receiver.echoes == "receiver" && range_noise > 0.0) only_traced("range_noise_m", "the receiver's 'noise'");
   if (receiver.bin_count == 0 && (range_max - receiver.bin_offset_m) / receiver.bin_size_m > 1e6)
     faults.add(place("bin_size_m"), fmt::format("range_max_m takes over a million bins of {} m, expected larger bins or a bin_count", receiver.bin_size_m));
 }
@@ -223,10 +228,10 @@ SensorSpec read_sensor_at(const Node& entry, Faults& faults, int depth) {
   const MountedSpec& common = mounted(spec);
   if (common.range_min_m >= common.range_max_m)
     faults.add(entry.place, fmt::format("'range_min_m' is {}, expected less than range_max_m, {}", common.range_min_m, common.range_max_m));
-  if (const auto* radar = std::get_if<ScanningRadarSpec>(&spec)) check_radar(entry, *radar, *radar, common.range_max_m, faults);
+  if (const auto* radar = std::get_if<ScanningRadarSpec>(&spec)) check_radar(entry, *radar, *radar, common.range_max_m, common.range_noise_m, radar->first_echo_only, faults);
   if (const auto* lidar = std::get_if<LidarSpec>(&spec)) check_order(entry, "range_noise_table_m", lidar->range_noise_table_m, faults);
   if (const auto* lobe = std::get_if<LobeRadarSpec>(&spec)) {
-    check_radar(entry, *lobe, *lobe, common.range_max_m, faults);
+    check_radar(entry, *lobe, *lobe, common.range_max_m, common.range_noise_m, false, faults);
     check_order(entry, "gain_table_db", lobe->gain_table_db, faults);
     if (lobe->gain == "table" && lobe->gain_table_db.empty()) faults.add(entry.place, "'gain' is 'table', expected its points in 'gain_table_db'");
     for (const double opening : {lobe->azimuth_opening_deg, lobe->elevation_opening_deg}) {

@@ -43,7 +43,11 @@ std::pair<std::vector<Echo>, std::size_t> strongest_echoes(std::span<const Echo>
 void add_profile(std::string& text, const Scan& scan, std::size_t beam, bool velocity) {
   const Beam& b = scan.beams[beam];
   append(text, "\nbeam {}, azimuth {:.1f} deg, elevation {:.1f} deg: {} detection{}\n", beam, degrees(b.azimuth), degrees(b.elevation), b.echo_count, b.echo_count == 1 ? "" : "s");
-  for (const Echo& echo : scan.echoes_of(b)) append(text, "  detected {}\n", echo_in_words(echo, velocity));
+  for (const Echo& echo : scan.echoes_of(b)) {  // (a receiver cannot tell which side of matter it is)
+    append(text, "  detected {:8.3f} m {:7.1f} dB", echo.range, to_db(echo.amplitude));
+    if (velocity) append(text, " {:+.2f} m/s", echo.radial_velocity);
+    text += '\n';
+  }
   const auto tops = strongest_tops(scan.profiles, beam, 5);
   if (!tops.empty()) append(text, "  strongest tops of the profile\n       range m   amplitude        dB   threshold\n");
   for (const Top& top : tops)

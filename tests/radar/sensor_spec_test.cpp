@@ -138,6 +138,12 @@ TEST_CASE("bad values of a sensor, with their places") {
   CHECK(faults_of(head + "divergence = \"sides\"\n") == "s.toml:2:14: 'divergence' is 'sides', expected one of 'none', 'side_rays', 'cone'");
   CHECK(faults_of(head + "side_geometry = \"paralel\"\n") ==
         "s.toml:2:17: 'side_geometry' is 'paralel', expected one of 'diverging', 'parallel' (did you mean 'parallel'?)");
+  CHECK(faults_of(head + "echoes = \"receiver\"\nfirst_echo_only = true\n") ==
+        "s.toml:3:19: 'first_echo_only' does nothing to what a receiver detects, expected detection = 'first', or echoes = 'traced'");
+  CHECK(faults_of("type = \"lobe_radar\"\nechoes = \"receiver\"\nrange_noise_m = 0.1\n") ==
+        "s.toml:3:17: 'range_noise_m' does nothing to what a receiver detects, expected the receiver's 'noise', or echoes = 'traced'");
+  CHECK(faults_of(head + "law = \"printed\"\nsignal = \"iq\"\n") ==
+        "s.toml:3:10: 'signal' is 'iq', but the printed law has no phases, expected 'amplitude', or law = 'radar_equation'");
   CHECK(faults_of(head + "first_echo_only = 1\n") == "s.toml:2:19: 'first_echo_only' is an integer, expected true or false");
   CHECK(faults_of(head + "position_m = [0, 0]\n").find("s.toml:2:14: 'position_m' has an array of length 2") == 0);
   CHECK(faults_of(head + "range_min_m = 40\n").find("'range_min_m' is 40, expected less than range_max_m, 30") != std::string::npos);
