@@ -66,7 +66,7 @@ void add_receiver_keys(SectionOf<S>& section) {
       .key("noise_walk", &S::noise_walk, "", between(0.0, 1e6), "noise that wanders from bin to bin: standard deviation of a step")
       .key("smoothing_bins", &S::smoothing_bins, "", between(1.0, 1e4), "length of the moving average over bins")
       .key("clutter_floor", &S::clutter_floor, "", between(0.0, 1e6), "amplitude of the clutter that is in every bin; powers add")
-      .key("saturation", &S::saturation, "", or_infinite(above_up_to(0.0, 1e6)), "amplitude above which the receiver clips")
+      .key("saturation", &S::saturation, "", or_infinite(above(0.0)), "amplitude above which the receiver clips")
       .choice("detector", &S::detector, {"threshold", "ca_cfar"}, "against a fixed threshold, or against the mean of the bins around (cell-averaging CFAR)")
       .key("threshold", &S::threshold, "", above_up_to(0.0, 1e6), "amplitude that a detection takes; 0.038 is that of Billdal 2018")
       .key("false_alarm_rate", &S::false_alarm_rate, "", between(1e-15, 0.4), "per bin: of CFAR, and of the noise where none is given")
