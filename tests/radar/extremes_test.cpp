@@ -65,7 +65,7 @@ const std::vector<Choices> of_lobes = {
     {"elevation_rays", {"1", "2", "31"}},
     {"section", {"'square'", "'elliptic'"}},
     {"gain", {"'flat'", "'gaussian'"}},
-    {"gain_width_deg", {"[1e-300, 1e-300]", "[0.1, 65.0]", "[360.0, 360.0]"}},
+    {"gain_width_deg", {"[1e-300, 1e-300]", "[1e-3, 1e-3]", "[0.1, 65.0]", "[360.0, 360.0]"}},
 };
 const std::vector<Choices> of_scanners = {
     {"fov_deg", {"360", "90", "1e-300"}},
@@ -194,4 +194,24 @@ TEST_CASE("any keys, any place: scans are finite, in order, in range and the sam
     CHECK_MESSAGE(same(first, second), i, ", not the same again:\n", text);
   }
   CHECK(read > count / 4);
+}
+
+TEST_CASE("an antenna whose gain is nothing along all its rays receives nothing") {
+  const Scene scene = traced(everything(true));
+  for (const char* law : {"radar_equation", "printed"}) {
+    for (const char* sampling : {"regular", "jitter"}) {
+      for (const char* echoes : {"traced", "receiver"}) {
+        LobeRadarSpec spec = bare_lobe();
+        spec.gain = "gaussian";
+        spec.gain_width_deg = glm::dvec2(1e-3, 1e-3);
+        spec.law = law;
+        spec.sampling = sampling;
+        spec.echoes = echoes;
+        spec.bounces_max = 3;
+        const Scan scan = measured(spec, scene);
+        CHECK(fault_of(scan, spec) == "");
+        for (const float amplitude : scan.profiles.amplitude) CHECK(amplitude == 0.0f);
+      }
+    }
+  }
 }
