@@ -256,6 +256,8 @@ SensorSpec read_sensor_at(const Node& entry, Faults& faults, int depth) {
   if (const auto* lobe = std::get_if<LobeRadarSpec>(&spec)) {
     check_radar(entry, *lobe, *lobe, *lobe, 1.0, lobe->ray_spacing_m ? 1.0 : static_cast<double>(lobe->azimuth_rays * lobe->elevation_rays), faults);
     check_order(entry, "gain_table_db", lobe->gain_table_db, faults);
+    if (const Node* table = entry.find("gain_table_db"); table && lobe->gain != "table" && !lobe->gain_table_db.empty())
+      faults.add(table->place, fmt::format("'gain_table_db' has points, but 'gain' is '{}', expected gain = 'table'", lobe->gain));
     if (lobe->gain == "table" && lobe->gain_table_db.empty()) faults.add(entry.place, "'gain' is 'table', expected its points in 'gain_table_db'");
     for (const double opening : {lobe->azimuth_opening_deg, lobe->elevation_opening_deg}) {
       constexpr std::int64_t at_most = 2000;

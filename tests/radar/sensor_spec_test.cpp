@@ -194,6 +194,8 @@ TEST_CASE("keys that would leave nothing to see, or do nothing, are told") {
   CHECK(faults_of(head + "elevation_rays = 4\n") ==
         "s.toml:4:18: 'elevation_rays' is 4, but there is no opening to spread them over, expected an 'elevation_opening_deg' above 0");
   CHECK(faults_of(head + "elevation_rays = 4\nelevation_opening_deg = 10\n") == "");
+  CHECK(faults_of("type = \"lobe_radar\"\ngain_table_db = [[0, 0], [30, -3]]\n") == "s.toml:2:17: 'gain_table_db' has points, but 'gain' is 'flat', expected gain = 'table'");
+  CHECK(faults_of("type = \"lobe_radar\"\ngain = \"table\"\ngain_table_db = [[0, 0], [30, -3]]\n") == "");
   // Single precision ends at 1e38, and the angles of a lobe's cells are squared.
   CHECK(faults_of(head + "threshold = 1e300\n") == "s.toml:4:13: 'threshold' is 1e+300, expected a number, above 0 and at most 1000000");
   CHECK(faults_of("type = \"lobe_radar\"\nazimuth_opening_deg = 1e-200\n").find("'azimuth_opening_deg' is 1e-200, expected a number in deg, at least 0.001 and at most 180") != std::string::npos);
