@@ -81,12 +81,24 @@ const std::vector<Choices> of_scanners = {
     {"first_echo_only", {"true", "false"}},
 };
 
-/// An entry that sets some of the keys, and a few of both kinds that are always there to keep this quick.
+const std::vector<Choices> of_lidars = {
+    {"range_min_m", {"0", "0.5", "4"}},
+    {"range_max_m", {"0.001", "5", "30", "1e5"}},
+    {"range_noise_m", {"0", "0.1", "1e6"}},
+    {"fov_deg", {"360", "90", "1e-300"}},
+    {"step_deg", {"3", "7", "180"}},
+    {"optical_depth_max", {"1e-300", "0.1", "1", "1e300", "inf"}},
+    {"range_noise_table_m", {"[[0, 0]]", "[[0, 1e6], [0, 0], [1e6, 1e6]]", "[[1, 0.01], [10, 0.03]]"}},
+};
+
+/// An entry that sets some of the keys, and a few that are always there to keep this quick.
 std::string drawn_entry(Dice& dice) {
-  const bool lobe = dice.chance(0.5);
-  std::string text = lobe ? "type = 'lobe_radar'\n" : "type = 'scanning_radar'\n";
+  const double kind = dice.between(0.0, 1.0);
+  std::string text = kind < 0.45 ? "type = 'lobe_radar'\n" : kind < 0.9 ? "type = 'scanning_radar'\n" : "type = 'lidar'\n";
   const double density = dice.between(0.1, 0.8);
-  for (const auto* list : {&of_both, lobe ? &of_lobes : &of_scanners})
+  const std::vector<const std::vector<Choices>*> lists =
+      kind < 0.45 ? std::vector{&of_both, &of_lobes} : kind < 0.9 ? std::vector{&of_both, &of_scanners} : std::vector{&of_lidars};
+  for (const auto* list : lists)
     for (const Choices& choices : *list)
       if (dice.chance(density) || std::strstr("azimuth_rays elevation_rays step_deg", choices.key))
         text += fmt::format("{} = {}\n", choices.key, choices.values[dice.pick(static_cast<std::uint32_t>(choices.values.size()))]);
@@ -127,7 +139,8 @@ World everything(bool with_floor) {
 /// What is wrong with a scan; nothing if it is as it should be.
 std::string fault_of(const Scan& scan, const SensorSpec& spec) {
   const MountedSpec& common = mounted(spec);
-  const bool shifted = common.range_noise_m > 0.0;
+  const auto* lidar = std::get_if<LidarSpec>(&spec);
+  const bool shifted = common.range_noise_m > 0.0 || (lidar && !lidar->range_noise_table_m.empty());
   for (const Beam& beam : scan.beams) {
     if (!(beam.sensed_range >= 0.0 && beam.sensed_range <= common.range_max_m)) return fmt::format("a beam sensed as far as {}", beam.sensed_range);
     if (!(std::abs(glm::length(beam.direction) - 1.0) < 1e-9)) return "a beam's direction is not of length 1";
