@@ -188,7 +188,8 @@ void Antenna::integrate() {
     });
   };
   two_way_solid_angle_ = over_opening([](double g) { return g * g; });
-  directivity_ = 4.0 * pi / over_opening([](double g) { return g; });
+  const double one_way = over_opening([](double g) { return g; });
+  directivity_ = one_way > 0.0 ? 4.0 * pi / one_way : 0.0;
 }
 
 std::vector<double> azimuths_of(const ScannerSpec& spec) {

@@ -48,7 +48,7 @@ class Radar final : public Sensor {
     double printed_sum = 0.0;
     for (const SubRay& ray : p_.sampler.antenna().rays())
       if (ray.share > 0.0) printed_sum += ray.gain / (std::cos(ray.elevation) * std::cos(ray.azimuth));
-    printed_unit_ = 1.0 / printed_sum;
+    printed_unit_ = printed_sum > 0.0 ? 1.0 / printed_sum : 0.0;  // an antenna whose gain is nothing along all its rays receives nothing
     for (std::size_t i = 0; i < p_.sampler.traits().size(); ++i)
       if (p_.ray_beams) nominal_.push_back(beam_along(p_.sampler.directions()[i]));
       else if (i % in_beam == 0) nominal_.push_back(beam_towards(azimuths()[i / in_beam]));

@@ -12,6 +12,9 @@ namespace {
 
 constexpr double nearest = 0.01;  // m: the 1/R^2 of what is nearer is that of 1 cm
 
+/// Ways that a sent ray may split into at mirrors that let some of it through: each of n panes doubles them, and without a floor there is no end to it. The ways with the fewest bounces come first.
+constexpr std::uint32_t most_ways = 1000;
+
 double from_db(double db) { return std::exp((0.1 * std::numbers::ln10) * db); }
 
 /// A wave on a leg of its way out.
@@ -45,6 +48,7 @@ class RayTracer {
     traced_.echoes.reserve(rays.size());
     traced_.rays.resize(rays.size());
     traced_.count = 0;
+    if (c_.radar.bounces_max > 1) ways_.assign(rays.size(), 0);
     Leg first;
     trace_all(rays, [&](std::uint32_t i) -> const Leg& {
       first.index = i;
@@ -234,7 +238,8 @@ class RayTracer {
     if (leg.bounces >= c_.radar.bounces_max || reflector.diffuse >= 1.0) return;
     Leg next = leg;
     next.one_way = one_way_ * (1.0 - reflector.diffuse) * interface.mirrored;
-    if (next.one_way < floor_at(way) || way >= c_.range_max) return;
+    if (next.one_way < floor_at(way) || way >= c_.range_max || ways_[leg.index] == most_ways) return;
+    ++ways_[leg.index];
     const glm::dvec3 out = glm::normalize(in - 2.0 * glm::dot(in, normal) * normal);
     next.length = way;
     next.excess = excess_;
@@ -354,6 +359,7 @@ class RayTracer {
   std::vector<Hit> hits_;
   CrossingLists lists_;
   std::vector<std::uint32_t> owners_;  // of the echoes, with multipath
+  std::vector<std::uint32_t> ways_;    // that each ray has split into, with multipath
   std::vector<Leg> mirrored_;
   std::vector<Ray> mirrored_rays_;  // theirs
   std::vector<LookBack> looks_;

@@ -116,7 +116,7 @@ Receiver::Receiver(const ReceiverSpec& spec, const RadarSpec& wave, double range
     pulse_.push_back(static_cast<float>(std::exp((sum_ == Sum::powers ? -1.0 : -0.5) * x * x)));
   }
   margin_ = up_to_block(pulse_.size());
-  velocity_reach_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(deviation)) + smoothed_after_;
+  velocity_reach_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(deviation, longest_pulse_bins))) + smoothed_after_;
 
   const double root = std::sqrt(static_cast<double>(spec.smoothing_bins)), rate = spec.false_alarm_rate;
   noise_ = spec.noise ? *spec.noise : threshold_ * root / (sum_ == Sum::fields ? std::sqrt(-2.0 * std::log(rate)) : -normal_quantile(rate));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "antenna.hpp"
@@ -67,7 +68,7 @@ void add_receiver_keys(SectionOf<S>& section) {
       .key("clutter_floor", &S::clutter_floor, "", between(0.0, 1e6), "amplitude of the clutter that is in every bin; powers add")
       .key("saturation", &S::saturation, "", or_infinite(above(0.0)), "amplitude above which the receiver clips")
       .choice("detector", &S::detector, {"threshold", "ca_cfar"}, "against a fixed threshold, or against the mean of the bins around (cell-averaging CFAR)")
-      .key("threshold", &S::threshold, "", above(0.0), "amplitude that a detection takes; 0.038 is that of Billdal 2018")
+      .key("threshold", &S::threshold, "", above_up_to(0.0, 1e6), "amplitude that a detection takes; 0.038 is that of Billdal 2018")
       .key("false_alarm_rate", &S::false_alarm_rate, "", between(1e-15, 0.4), "per bin: of CFAR, and of the noise where none is given")
       .key("cfar_training_bins", &S::cfar_training_bins, "", between(1.0, 1e4), "bins that are averaged, on either side")
       .key("cfar_guard_bins", &S::cfar_guard_bins, "", between(0.0, 1e4), "bins next to the one in question that are left out, on either side")
@@ -86,7 +87,7 @@ SectionOf<ScanningRadarSpec> scanning_section() {
       .choice("side_geometry", &S::side_geometry, {"diverging", "parallel"}, "side rays from the same origin, N off at range_max_m; or N off everywhere")
       .choice("side_choice", &S::side_choice, {"equal", "incidence", "strongest", "sum"},
               "which of the three rays is the beam: by equal chance, by chance in proportion to the cosine of incidence, the strongest, or all of them")
-      .key("cone_opening_deg", &S::cone_opening_deg, "deg", above_up_to(0.0, 90.0), "full width of the cone")
+      .key("cone_opening_deg", &S::cone_opening_deg, "deg", between(0.001, 90.0), "full width of the cone")
       .key("cone_rays", &S::cone_rays, "", between(1.0, 10000.0), "rays of the cone; all of them are the beam");
   add_radar_keys(section);
   section.key("first_echo_only", &S::first_echo_only, "keep only the first echo of each beam, as if it could not see through anything");
@@ -97,8 +98,8 @@ SectionOf<ScanningRadarSpec> scanning_section() {
 SectionOf<LobeRadarSpec> lobe_section() {
   using S = LobeRadarSpec;
   auto section = mounted_section<S>("lobe_radar", "a fixed antenna with a wide opening along its x axis, as the X4M05 of Billdal 2018");
-  section.key("azimuth_opening_deg", &S::azimuth_opening_deg, "deg", above_up_to(0.0, 180.0), "full opening to the left and right")
-      .key("elevation_opening_deg", &S::elevation_opening_deg, "deg", above_up_to(0.0, 170.0), "full opening upward and downward")
+  section.key("azimuth_opening_deg", &S::azimuth_opening_deg, "deg", between(0.001, 180.0), "full opening to the left and right")
+      .key("elevation_opening_deg", &S::elevation_opening_deg, "deg", between(0.001, 170.0), "full opening upward and downward")
       .key("azimuth_rays", &S::azimuth_rays, "", between(1.0, 2000.0), "rays over the azimuth opening")
       .key("elevation_rays", &S::elevation_rays, "", between(1.0, 2000.0), "rays over the elevation opening")
       .key("ray_spacing_m", &S::ray_spacing_m, "m", above_up_to(0.0, 1e3), "distance of neighbouring rays at range_max_m; gives the numbers of rays (eq. 4.4 of Billdal 2018)")
@@ -130,15 +131,28 @@ void check_order(const Node& entry, const char* key, const std::vector<glm::dvec
   }
 }
 
-void check_radar(const Node& entry, const RadarSpec& radar, const ReceiverSpec& receiver, double range_max, double range_noise, bool first_echo_only, Faults& faults) {
+/// What a scan may take: these rays are 2 GB while they are traced, and these bins 1 GB.
+constexpr double most_rays = 4e6, most_bins = 1e8;
+
+/// `beams`, of `rays` each.
+void check_radar(const Node& entry, const MountedSpec& common, const RadarSpec& radar, const ReceiverSpec& receiver, double beams, double rays, Faults& faults) {
   const auto place = [&](const char* key) { return entry.find(key) ? entry.find(key)->place : entry.place; };
+  const double range_max = common.range_max_m;
+  if (beams * rays > most_rays) faults.add(entry.place, fmt::format("{:g} beams of {:g} rays are more than a scan may have, expected at most {:g} rays in all", beams, rays, most_rays));
+  if (receiver.echoes == "receiver") {
+    const double bins = receiver.bin_count > 0 ? static_cast<double>(receiver.bin_count) : std::max(0.0, (range_max - receiver.bin_offset_m) / receiver.bin_size_m) + 1.0;
+    const double last = receiver.bin_offset_m + (bins - 1.0) * receiver.bin_size_m;
+    if (beams * bins > most_bins)
+      faults.add(place("bin_count"), fmt::format("{:g} beams of {:g} bins are more than a scan may have, expected at most {:g} bins in all", beams, bins, most_bins));
+    if (receiver.bin_offset_m > range_max)
+      faults.add(place("bin_offset_m"), fmt::format("'bin_offset_m' is {}, so that all bins are beyond range_max_m, {}, expected less", receiver.bin_offset_m, range_max));
+    else if (receiver.bin_count > 0 && last < common.range_min_m)
+      faults.add(place("bin_count"), fmt::format("the last bin is at {} m, nearer than range_min_m, {}, expected more or larger bins", last, common.range_min_m));
+  }
   if (radar.law == "printed" && receiver.signal == "iq")
     faults.add(place("signal"), "'signal' is 'iq', but the printed law has no phases, expected 'amplitude', or law = 'radar_equation'");
-  const auto only_traced = [&](const char* key, const char* instead) {
-    faults.add(place(key), fmt::format("'{}' does nothing to what a receiver detects, expected {}, or echoes = 'traced'", key, instead));
-  };
-  if (receiver.echoes == "receiver" && first_echo_only) only_traced("first_echo_only", "detection = 'first'");
-  if (receiver.echoes == "receiver" && range_noise > 0.0) only_traced("range_noise_m", "the receiver's 'noise'");
+  if (receiver.echoes == "receiver" && common.range_noise_m > 0.0)
+    faults.add(place("range_noise_m"), "'range_noise_m' is for traced echoes, expected the 'noise' of the receiver");
   if (receiver.bin_count == 0 && (range_max - receiver.bin_offset_m) / receiver.bin_size_m > 1e6)
     faults.add(place("bin_size_m"), fmt::format("range_max_m takes over a million bins of {} m, expected larger bins or a bin_count", receiver.bin_size_m));
 }
@@ -228,11 +242,24 @@ SensorSpec read_sensor_at(const Node& entry, Faults& faults, int depth) {
   const MountedSpec& common = mounted(spec);
   if (common.range_min_m >= common.range_max_m)
     faults.add(entry.place, fmt::format("'range_min_m' is {}, expected less than range_max_m, {}", common.range_min_m, common.range_max_m));
-  if (const auto* radar = std::get_if<ScanningRadarSpec>(&spec)) check_radar(entry, *radar, *radar, common.range_max_m, common.range_noise_m, radar->first_echo_only, faults);
+  if (const auto* radar = std::get_if<ScanningRadarSpec>(&spec)) {
+    // What a scan will have; `azimuths_of` makes the list of it.
+    const double beams = std::max(1.0, std::floor(radar->fov_deg / radar->step_deg + 1e-9) + (radar->fov_deg >= 360.0 ? 0.0 : 1.0));
+    const double in_row = radar->divergence == "cone" ? static_cast<double>(radar->cone_rays) : radar->divergence == "side_rays" ? 3.0 : 1.0;
+    check_radar(entry, *radar, *radar, *radar, beams, in_row * (radar->elevation_opening_deg > 0.0 ? static_cast<double>(radar->elevation_rays) : 1.0), faults);
+    if (const Node* rows = entry.find("elevation_rays"); rows && radar->elevation_rays > 1 && radar->elevation_opening_deg == 0.0)
+      faults.add(rows->place, fmt::format("'elevation_rays' is {}, but there is no opening to spread them over, expected an 'elevation_opening_deg' above 0", radar->elevation_rays));
+    if (radar->first_echo_only && radar->echoes == "receiver") {
+      const Node* node = entry.find("first_echo_only");
+      faults.add(node ? node->place : entry.place, "'first_echo_only' is for traced echoes, expected detection = 'first' with a receiver");
+    }
+  }
   if (const auto* lidar = std::get_if<LidarSpec>(&spec)) check_order(entry, "range_noise_table_m", lidar->range_noise_table_m, faults);
   if (const auto* lobe = std::get_if<LobeRadarSpec>(&spec)) {
-    check_radar(entry, *lobe, *lobe, common.range_max_m, common.range_noise_m, false, faults);
+    check_radar(entry, *lobe, *lobe, *lobe, 1.0, lobe->ray_spacing_m ? 1.0 : static_cast<double>(lobe->azimuth_rays * lobe->elevation_rays), faults);
     check_order(entry, "gain_table_db", lobe->gain_table_db, faults);
+    if (const Node* table = entry.find("gain_table_db"); table && lobe->gain != "table" && !lobe->gain_table_db.empty())
+      faults.add(table->place, fmt::format("'gain_table_db' has points, but 'gain' is '{}', expected gain = 'table'", lobe->gain));
     if (lobe->gain == "table" && lobe->gain_table_db.empty()) faults.add(entry.place, "'gain' is 'table', expected its points in 'gain_table_db'");
     for (const double opening : {lobe->azimuth_opening_deg, lobe->elevation_opening_deg}) {
       constexpr std::int64_t at_most = 2000;

@@ -180,3 +180,24 @@ TEST_CASE("multipath that is left out costs nothing, that is there ends below th
   CHECK(std::ranges::any_of(scan.echoes, [](const Echo& e) { return std::abs(e.range - 45.0) < 1e-6 && e.bounces == 5; }));
   CHECK(std::ranges::none_of(scan.echoes, [](const Echo& e) { return e.bounces > 5; }));
 }
+
+TEST_CASE("between panes a ray splits into a thousand ways at most, those of the fewest bounces") {
+  HandMadeWorld w;
+  const auto presets = material_presets();
+  REQUIRE(presets);
+  w.world.materials = *presets;
+  const auto glass = static_cast<std::uint32_t>(std::ranges::find(*presets, "glass", &Material::name) - presets->begin());
+  for (int i = 0; i < 10; ++i) w.add(Box{{0.006, 50.0, 50.0}}, {1.0 + 0.5 * i, 0.0, 0.0}, 0.0, glass);
+  const Scene scene = traced(w);
+  ScanningRadarSpec spec = bouncing(3);
+  spec.slab_max_m = 0.1;
+  const Scan few = measured(spec, scene);
+  CHECK(few.rays > 100);
+  CHECK(few.rays < 1000);
+  spec.bounces_max = 16;  // some 10^9 ways
+  const Scan many = measured(spec, scene);
+  CHECK(many.rays > 1000);
+  CHECK(many.rays <= 1 + 1000 + 1000 * 10);  // the ray, its ways, and what each of them sees of ten panes
+  const auto up_to_3 = [](const Scan& scan) { return std::ranges::count_if(scan.echoes, [](const Echo& e) { return e.bounces <= 3; }); };
+  CHECK(up_to_3(many) == up_to_3(few));
+}

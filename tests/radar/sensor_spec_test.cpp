@@ -138,10 +138,8 @@ TEST_CASE("bad values of a sensor, with their places") {
   CHECK(faults_of(head + "divergence = \"sides\"\n") == "s.toml:2:14: 'divergence' is 'sides', expected one of 'none', 'side_rays', 'cone'");
   CHECK(faults_of(head + "side_geometry = \"paralel\"\n") ==
         "s.toml:2:17: 'side_geometry' is 'paralel', expected one of 'diverging', 'parallel' (did you mean 'parallel'?)");
-  CHECK(faults_of(head + "echoes = \"receiver\"\nfirst_echo_only = true\n") ==
-        "s.toml:3:19: 'first_echo_only' does nothing to what a receiver detects, expected detection = 'first', or echoes = 'traced'");
   CHECK(faults_of("type = \"lobe_radar\"\nechoes = \"receiver\"\nrange_noise_m = 0.1\n") ==
-        "s.toml:3:17: 'range_noise_m' does nothing to what a receiver detects, expected the receiver's 'noise', or echoes = 'traced'");
+        "s.toml:3:17: 'range_noise_m' is for traced echoes, expected the 'noise' of the receiver");
   CHECK(faults_of(head + "law = \"printed\"\nsignal = \"iq\"\n") ==
         "s.toml:3:10: 'signal' is 'iq', but the printed law has no phases, expected 'amplitude', or law = 'radar_equation'");
   CHECK(faults_of(head + "first_echo_only = 1\n") == "s.toml:2:19: 'first_echo_only' is an integer, expected true or false");
@@ -177,6 +175,34 @@ TEST_CASE("a ray spacing that takes too many rays is told with their number") {
   const std::string head = "type = \"lobe_radar\"\nrange_max_m = 10\n";
   CHECK(faults_of(head + "ray_spacing_m = 0.2\n") == "");
   CHECK(faults_of(head + "ray_spacing_m = 0.001\n") == "s.toml:3:17: 'ray_spacing_m' takes 11346 rays over 65 deg at range_max_m, expected at most 2000");
+}
+
+TEST_CASE("a scan that would not fit into memory is told before it is tried") {
+  const std::string head = "type = \"scanning_radar\"\nrange_max_m = 10\n";
+  CHECK(faults_of(head + "step_deg = 0.001\n") == "");
+  CHECK(faults_of(head + "step_deg = 0.001\ndivergence = \"cone\"\ncone_rays = 10000\n") == "s.toml:1:1: 360000 beams of 10000 rays are more than a scan may have, expected at most 4e+06 rays in all");
+  CHECK(faults_of(head + "step_deg = 0.001\nelevation_opening_deg = 20\nelevation_rays = 12\n").find("360000 beams of 12 rays") != std::string::npos);
+  CHECK(faults_of("type = \"lobe_radar\"\nazimuth_rays = 2000\nelevation_rays = 2000\n") == "");
+  const std::string receiver = head + "step_deg = 0.1\nechoes = \"receiver\"\n";
+  CHECK(faults_of(receiver + "bin_size_m = 0.05\n") == "");
+  CHECK(faults_of(receiver + "bin_count = 1000000\n") == "s.toml:5:13: 3600 beams of 1e+06 bins are more than a scan may have, expected at most 1e+08 bins in all");
+  CHECK(faults_of(receiver + "bin_size_m = 0.0001\n").find("3600 beams of 100001 bins") != std::string::npos);
+}
+
+TEST_CASE("keys that would leave nothing to see, or do nothing, are told") {
+  const std::string head = "type = \"scanning_radar\"\nrange_max_m = 10\nechoes = \"receiver\"\n";
+  CHECK(faults_of(head + "bin_offset_m = 11\n") == "s.toml:4:16: 'bin_offset_m' is 11, so that all bins are beyond range_max_m, 10, expected less");
+  CHECK(faults_of(head + "bin_offset_m = 10\n") == "");
+  CHECK(faults_of(head + "bin_count = 5\nrange_min_m = 1\n") == "s.toml:4:13: the last bin is at 0.2 m, nearer than range_min_m, 1, expected more or larger bins");
+  CHECK(faults_of(head + "first_echo_only = true\n") == "s.toml:4:19: 'first_echo_only' is for traced echoes, expected detection = 'first' with a receiver");
+  CHECK(faults_of(head + "elevation_rays = 4\n") ==
+        "s.toml:4:18: 'elevation_rays' is 4, but there is no opening to spread them over, expected an 'elevation_opening_deg' above 0");
+  CHECK(faults_of(head + "elevation_rays = 4\nelevation_opening_deg = 10\n") == "");
+  CHECK(faults_of("type = \"lobe_radar\"\ngain_table_db = [[0, 0], [30, -3]]\n") == "s.toml:2:17: 'gain_table_db' has points, but 'gain' is 'flat', expected gain = 'table'");
+  CHECK(faults_of("type = \"lobe_radar\"\ngain = \"table\"\ngain_table_db = [[0, 0], [30, -3]]\n") == "");
+  // Single precision ends at 1e38, and the angles of a lobe's cells are squared.
+  CHECK(faults_of(head + "threshold = 1e300\n") == "s.toml:4:13: 'threshold' is 1e+300, expected a number, above 0 and at most 1000000");
+  CHECK(faults_of("type = \"lobe_radar\"\nazimuth_opening_deg = 1e-200\n").find("'azimuth_opening_deg' is 1e-200, expected a number in deg, at least 0.001 and at most 180") != std::string::npos);
 }
 
 TEST_CASE("defaults by type") {
