@@ -22,7 +22,7 @@ struct Surface {
   std::uint32_t solid = no_solid;           ///< the reflector's
   glm::dvec3 normal{0.0};                   ///< unit; either side
   double cosine = 1.0;                      ///< of incidence, 0...1
-  double slab = 0.0;                        ///< m, thickness of the slab that this is, with the open on both sides; 0: an interface
+  double slab = 0.0;                        ///< m, thickness of the slab that this is, with the open (or what is as good) on both sides; 0: an interface
   double slab_path = 0.0;                   ///< m, way through the slab
 };
 
@@ -52,14 +52,14 @@ class MediumWalk {
     return material(medium_);
   }
 
-  /// After `start`: calls `stretch(material, from, to)` for each stretch that lies in matter, and `surface(Surface)` where the medium changes, in order, as far as range_max; ends where one of them
+  /// After `start`: calls `stretch(material, solid, from, to)` for each stretch that lies in matter, and `surface(Surface)` where the medium changes, in order, as far as range_max; ends where one of them
   /// returns false.
   template <class Stretch, class OnSurface>
   void walk(const glm::dvec3& direction, double range_max, Stretch&& stretch, OnSurface&& on_surface) {
     double at = 0.0;
     for (std::size_t e = 0; e < events_.size();) {
       const double range = events_[e].range;
-      if (medium_ != open_space && !stretch(*material(medium_), at, std::min(range, range_max))) return;
+      if (medium_ != open_space && !stretch(*material(medium_), crossings_[medium_].solid, at, std::min(range, range_max))) return;
       if (range > range_max) return;
       // Everything that begins or ends here happens at once: two solids that share a face have no gap between them.
       const Event first = events_[e];
@@ -72,13 +72,13 @@ class MediumWalk {
       at = range;
       if (same(before, medium_)) continue;
       Surface surface = surface_at(range, before, first, direction);
-      if (slab_max_ > 0.0 && before == open_space && e < events_.size() && is_slab(events_[e], e, surface)) {
+      if (slab_max_ > 0.0 && is_open(before) && medium_ != open_space && e < events_.size() && is_slab(e, surface)) {
         surface.slab_path = events_[e].range - range;
         surface.slab = surface.slab_path * surface.cosine;
-        surface.after = nullptr;
+        surface.after = surface.before;
         at = events_[e].range;
-        active_.clear();
-        medium_ = open_space;
+        std::erase(active_, medium_);
+        medium_ = before;
         ++e;
       }
       if (!on_surface(surface)) return;
@@ -101,12 +101,16 @@ class MediumWalk {
   bool same(std::uint32_t a, std::uint32_t b) const { return material(a) == material(b); }
   double density(std::uint32_t c) const { return c == open_space ? 0.0 : material(c)->density; }
 
-  /// The crossing that counts among those that are active; crossings come in a fixed order, so ties are settled the same way every time.
+  /// The crossing that counts among those that are active: the densest; of those as dense the one that was entered first, and of these the first solid (so that it is the one that a closest hit finds).
   std::uint32_t strongest() const {
     std::uint32_t best = open_space;
     for (const std::uint32_t c : active_)
-      if (best == open_space || density(c) > density(best) || (density(c) == density(best) && media_[c] < media_[best])) best = c;
+      if (best == open_space || density(c) > density(best) || (density(c) == density(best) && earlier(c, best))) best = c;
     return best;
+  }
+  bool earlier(std::uint32_t a, std::uint32_t b) const {
+    const Crossing &x = crossings_[a], &y = crossings_[b];
+    return x.enter != y.enter ? x.enter < y.enter : x.solid < y.solid;
   }
 
   Surface surface_at(double range, std::uint32_t before, const Event& first, const glm::dvec3& direction) const {
@@ -124,10 +128,14 @@ class MediumWalk {
     return surface;
   }
 
-  /// Whether the medium that was just entered from the open is left by the next event into the open again, through a face parallel to the first.
-  bool is_slab(const Event& next, std::size_t e, const Surface& surface) const {
-    if (active_.size() != 1 || next.enters || next.crossing != active_[0] || material(medium_)->opaque() || material(medium_)->crown()) return false;
-    const Crossing& crossing = crossings_[active_[0]];
+  bool is_open(std::uint32_t c) const { return c == open_space || media_[c]->clear(); }
+
+  /// Whether the medium that was just entered from the open is left by event e into the open again, through a face parallel to the first.
+  bool is_slab(std::size_t e, const Surface& surface) const {
+    const Event& next = events_[e];
+    if (next.enters || next.crossing != medium_ || media_[medium_]->opaque() || media_[medium_]->crown()) return false;
+    if (!std::ranges::all_of(active_, [&](std::uint32_t c) { return c == medium_ || is_open(c); })) return false;
+    const Crossing& crossing = crossings_[medium_];
     const bool alone = e + 1 == events_.size() || events_[e + 1].range > next.range + same_place;
     return alone && (next.range - surface.range) * surface.cosine <= slab_max_ && glm::dot(crossing.enter_normal, crossing.leave_normal) < -0.999;
   }

@@ -53,6 +53,7 @@ class Radar final : public Sensor {
       if (p_.ray_beams) nominal_.push_back(beam_along(p_.sampler.directions()[i]));
       else if (i % in_beam == 0) nominal_.push_back(beam_towards(azimuths()[i / in_beam]));
     if (received_ && p_.ray_beams) nominal_ = {beam_towards(0.0)};
+    weighted_ = !received_ && p_.ray_beams && std::ranges::any_of(p_.sampler.traits(), [](const RayTraits& ray) { return ray.gain != 1.0f; });
     resolution_ = p_.receiver.bandwidth_ghz > 0.0 ? 0.5 * light_speed / (1e9 * p_.receiver.bandwidth_ghz) : p_.receiver.bin_size_m;
   }
 
@@ -82,6 +83,7 @@ class Radar final : public Sensor {
       p_.sampler.sample(first, sensor, spec().range_max_m, random, number, rays, own_traits ? std::span(result.own_traits).subspan(first, size) : std::span<RayTraits>());
       trace_rays(context, rays, result.traits.subspan(first, size), result.traced[t]);
       if (keep_rays) std::ranges::copy(rays, result.rays.begin() + static_cast<std::ptrdiff_t>(first));
+      if (weighted_) weigh_by_gain(result.traced[t], result.traits.subspan(first, size));
       if (rays_are_beams) take_rays_as_beams(result.traced[t], rays, result.traits.subspan(first, size), sensor, std::span(scan.beams).subspan(first, size), first);
     };
     if (result.traced.size() == 1) task(0);
@@ -131,6 +133,21 @@ class Radar final : public Sensor {
     beam.echo_count = static_cast<std::uint32_t>(echoes.size());
     scan.echoes.insert(scan.echoes.end(), echoes.begin(), echoes.end());
     scan.beams.push_back(beam);
+  }
+
+  /// The traced rays of a lobe are what its antenna makes of them: weaker off its axis, and nothing outside its section.
+  void weigh_by_gain(Traced& traced, std::span<const RayTraits> traits) const {
+    for (std::size_t i = 0; i < traits.size(); ++i) {
+      RayEnd& ray = traced.rays[i];
+      const auto echoes = std::span(traced.echoes).subspan(ray.first_echo, ray.echo_count);
+      std::uint32_t kept = 0;
+      for (Echo echo : echoes) {
+        echo.amplitude *= traits[i].gain;
+        if (traits[i].share > 0.0f && static_cast<double>(echo.amplitude) * static_cast<double>(echo.amplitude) >= floor_power_) echoes[kept++] = echo;
+      }
+      ray.echo_count = kept;
+      if (traits[i].share == 0.0f) ray.sensed_range = 0.0;
+    }
   }
 
   /// Makes the beams of a task's rays; their echoes are counted from the task's first one.
@@ -330,7 +347,7 @@ class Radar final : public Sensor {
   Parts p_;
   std::uint16_t index_;
   Pose mount_;
-  bool received_, printed_;
+  bool received_, printed_, weighted_ = false;  ///< weighted: traced rays count by the antenna's gain
   Receiver receiver_;
   double floor_power_;
   std::vector<Beam> nominal_;     ///< where the beams look

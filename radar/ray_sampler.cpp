@@ -8,8 +8,8 @@
 namespace thicket {
 namespace {
 
-/// How wide, in cells, the specular lobe of a mirror is taken at least (`RayTraits::spread`): narrow enough to fade with the tilt, wide enough that a regular grid of rays sums it to 0.02 dB.
-constexpr double lobe_in_cells = 0.8;
+/// How wide, in cells, the specular lobe of a mirror is taken at least (`RayTraits::spread`): narrow enough to fade with the tilt, wide enough that a regular grid of rays sums it to 0.1 dB, in a corner too.
+constexpr double lobe_in_cells = 1.0;
 
 /// Turns (cosine, sine) on by a small angle. Up to 0.1 rad the series is exact to rounding.
 void turn_on(double& cosine, double& sine, double by) {

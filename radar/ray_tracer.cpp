@@ -68,7 +68,7 @@ class RayTracer {
       c_.scene.closest_hits(rays, Stops::everything, hits_);
       for (std::uint32_t i = 0; i < rays.size(); ++i) follow_to_hit(leg_of(i), rays[i], hits_[i]);
     } else {
-      c_.scene.crossings(rays, c_.losses, c_.radar.penetration_budget_db, lists_);
+      c_.scene.crossings(rays, c_.losses, c_.list_budget_db, lists_);
       for (std::uint32_t i = 0; i < rays.size(); ++i) follow(leg_of(i), rays[i], lists_[i]);
     }
   }
@@ -98,13 +98,14 @@ class RayTracer {
       return finish(leg);
     }
     walk_.walk(
-        ray.direction, ray.range_max, [&](const WaveMaterial& material, double from, double to) { return pass_through(leg, material, from, to); },
+        ray.direction, ray.range_max, [&](const WaveMaterial& material, std::uint32_t solid, double from, double to) { return pass_through(leg, material, solid, from, to); },
         [&](const Surface& surface) { return meet(leg, surface); });
     finish(leg);
   }
 
   void begin(const Ray& ray) {
     ray_ = &ray;
+    excess_ = 0.0;
     starts_inside_ = false;
     end_ = {BeamEnd::open, ray.range_max};
     first_ = static_cast<std::uint32_t>(traced_.echoes.size());
@@ -119,7 +120,8 @@ class RayTracer {
 
   void finish(const Leg& leg) {
     if (leg.bounces > 1) return;  // where a beam ends is told by the wave that has met no mirror
-    traced_.rays[leg.index] = {first_, static_cast<std::uint32_t>(traced_.echoes.size()) - first_, end_.range, end_.why, starts_inside_};
+    const double seems = end_.why == BeamEnd::open ? end_.range : std::min(c_.range_max, end_.range + excess_);
+    traced_.rays[leg.index] = {first_, static_cast<std::uint32_t>(traced_.echoes.size()) - first_, seems, end_.why, starts_inside_};
   }
 
   /// Power under which a perfect diffuse reflector at a range (m, the whole way out) would not be seen, before the factor of its range.
@@ -130,8 +132,8 @@ class RayTracer {
   }
 
   /// A stretch inside matter. False if the wave ends in it: its budget is used up, or a perfect diffuse reflector there would come back below the floor.
-  bool pass_through(const Leg& leg, const WaveMaterial& material, double from, double to) {
-    if (material.crown()) return pass_leaves(leg, material, from, to);
+  bool pass_through(const Leg& leg, const WaveMaterial& material, std::uint32_t solid, double from, double to) {
+    if (material.crown()) return pass_leaves(leg, material, solid, from, to);
     if (material.attenuation_db_per_m > 0.0) {
       const double through = material.attenuation_db_per_m * (to - from), after = one_way_ * from_db(-through);
       const double floor = floor_at(leg.length + from);
@@ -148,13 +150,13 @@ class RayTracer {
   }
 
   /// Leaves at random places: the free path between two of them is exponential (as in HELIOS++), and they point anywhere, so that those that a ray meets have cosines with the density 2 cos.
-  bool pass_leaves(const Leg& leg, const WaveMaterial& crown, double from, double to) {
+  bool pass_leaves(const Leg& leg, const WaveMaterial& crown, std::uint32_t solid, double from, double to) {
     for (double at = from;;) {
       const auto u = c_.random.uniform(c_.scan, traits_[leg.index].number, RandomUse::foliage, static_cast<std::uint32_t>(leg.bounces) << 16 | (leaves_++ & 0xffffu));
       at += -std::log(u[0]) / crown.leaves_per_m;
       if (at >= to) return true;
       const double cosine = std::sqrt(u[1]);
-      if (crown.visible) add_echo(leg, at, crown.reflectivity * cosine, crown.reflectivity, cosine, Edge::thin, no_solid);
+      if (crown.visible) add_echo(leg, at, crown.leaf_reflectivity * cosine, crown.leaf_reflectivity, cosine, Edge::thin, solid);
       loss_db_ += crown.leaf_loss_db;
       one_way_ *= from_db(-crown.leaf_loss_db);
       if (loss_db_ >= c_.radar.penetration_budget_db || one_way_ * one_way_ <= floor_at(leg.length + at)) {
@@ -257,7 +259,7 @@ class RayTracer {
     if (!(back > 0.0) || range > c_.range_max || range < c_.range_min) return;
     const glm::dvec3 out = to_sensor / back;
     const WaveMaterial& reflector = *surface.reflector;
-    const double sent_back = bistatic(reflector, interface, ray_->direction, out, normal, sent.spread, c_.radar.fresnel);
+    const double sent_back = bistatic(reflector, interface, ray_->direction, out, normal, sent.spread, c_.radar.fresnel && surface.slab == 0.0);
     // The diffuse share comes again by the same way in the other direction, which no ray is sent along; mirrored ways are found from both ends.
     const double again = reflector.diffuse * interface.reflectivity * std::max(0.0, glm::dot(out, normal));
     double power = (sent_back + again) * one_way_ * range_factor(back, range);
@@ -314,37 +316,46 @@ class RayTracer {
     rays.reserve(looks_.size());
     for (const LookBack& look : looks_) rays.push_back(look.ray);
     traced_.count += rays.size();
-    c_.scene.crossings(rays, c_.losses, c_.radar.penetration_budget_db, lists_);
+    c_.scene.crossings(rays, c_.losses, c_.list_budget_db, lists_);
     for (std::size_t i = 0; i < looks_.size(); ++i) {
       const LookBack& look = looks_[i];
-      const double power = look.power * passage(look.ray, lists_[i]);
-      if (power >= c_.floor_power) push(look.index, {look.range, static_cast<float>(std::sqrt(power)), look.cosine, look.velocity, Edge::front, look.bounces});
+      const Passage way = passage(look.ray, lists_[i]);
+      const double power = look.power * way.passed, range = look.range + 0.5 * way.excess;
+      if (power >= c_.floor_power && range <= c_.range_max) push(look.index, {range, static_cast<float>(std::sqrt(power)), look.cosine, look.velocity, Edge::front, look.bounces});
     }
   }
 
-  /// Fraction of the power that gets along a ray to its end.
-  double passage(const Ray& ray, std::span<const Crossing> crossings) {
-    if (crossings.empty()) return 1.0;
+  /// What gets along a ray to its end: a fraction of the power, nothing once the penetration budget is used up; and how much longer the way seems, m.
+  struct Passage {
+    double passed = 1.0, excess = 0.0;
+  };
+  Passage passage(const Ray& ray, std::span<const Crossing> crossings) {
+    Passage way;
+    if (crossings.empty()) return way;
     const WaveMaterial* inside = walk_.start(crossings);
-    if (inside && inside->opaque()) return 0.0;
-    double passed = 1.0, loss_db = 0.0;
+    if (inside && inside->opaque()) return {0.0, 0.0};
+    double loss_db = 0.0;
+    const auto lose = [&](double db) {
+      loss_db += db;
+      way.passed = loss_db < c_.radar.penetration_budget_db ? way.passed * from_db(-db) : 0.0;
+      return way.passed > 0.0;
+    };
     walk_.walk(
         ray.direction, ray.range_max,
-        [&](const WaveMaterial& material, double from, double to) {
-          loss_db += (material.crown() ? material.density : material.attenuation_db_per_m) * (to - from);  // of leaves, the mean
-          return true;
+        [&](const WaveMaterial& material, std::uint32_t, double from, double to) {
+          way.excess += (material.index - 1.0) * (to - from);
+          return lose((material.crown() ? material.density : material.attenuation_db_per_m) * (to - from));  // of leaves, the mean
         },
         [&](const Surface& surface) {
-          if (surface.after && surface.after->opaque()) {
-            passed = 0.0;
-            return false;
-          }
+          if (surface.after && surface.after->opaque()) way.passed = 0.0;
+          if (way.passed == 0.0) return false;
           if (surface.reflector->crown()) return true;
-          passed *= surface.slab > 0.0 ? slab_interface(*surface.reflector, c_.radar.frequency_ghz, surface.slab, surface.cosine).passed
-                                       : interface_between(surface.before, surface.after, *surface.reflector, surface.cosine, c_.radar.fresnel).passed;
+          if (surface.slab > 0.0) way.excess += (surface.reflector->index - 1.0) * surface.slab_path;
+          way.passed *= surface.slab > 0.0 ? slab_interface(*surface.reflector, c_.radar.frequency_ghz, surface.slab, surface.cosine).passed
+                                           : interface_between(surface.before, surface.after, *surface.reflector, surface.cosine, c_.radar.fresnel).passed;
           return true;
         });
-    return passed * from_db(-loss_db);
+    return way;
   }
 
   struct End {
@@ -381,6 +392,8 @@ bool all_opaque(const World& world, const std::vector<WaveMaterial>& materials) 
 TraceContext::TraceContext(const Scene& in, const RadarSpec& with, double from, double to, const Antenna& of, const Pose& at, const glm::dvec3& moving, const Random& dice, std::uint64_t number)
     : scene(in), radar(with), range_min(from), range_max(to), floor_power(from_db(with.detection_floor_db)), antenna(of), sensor(at), velocity(moving), random(dice), scan(number),
       materials(wave_materials(in.world(), with, floor_power)), first_surface_only(all_opaque(in.world(), materials)), printed(with.law == "printed") {
+  // Where leaves are at random places it is not known beforehand how far the budget takes a wave.
+  list_budget_db = std::ranges::any_of(materials, &WaveMaterial::crown) ? infinity : with.penetration_budget_db;
   for (const WaveMaterial& material : materials) losses.push_back(material.attenuation_db_per_m);
 }
 

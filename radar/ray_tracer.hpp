@@ -54,6 +54,7 @@ struct TraceContext {
   std::uint64_t scan;
   std::vector<WaveMaterial> materials;
   std::vector<double> losses;  ///< of the materials, dB/m
+  double list_budget_db = 0.0; ///< as far as solids are listed along a ray
   bool first_surface_only;     ///< nothing in the world lets a wave through
   bool printed;
 };

@@ -61,10 +61,13 @@ WaveMaterial wave_material(const Material& material, const RadarSpec& radar, dou
     wave.diffuse = wave.slope = material.roughness * material.roughness;
   }
   if (radar.statistical_foliage && material.leaves_per_m > 0.0 && !wave.opaque()) {
-    // So that the mean of what gets through is that of even matter: a Poisson number of leaves, each of which takes the part `taken`, passes exp(-leaves taken) on average.
-    const double taken = 0.1 * std::numbers::ln10 * attenuation / material.leaves_per_m;
-    wave.leaves_per_m = material.leaves_per_m;
+    // So that the mean of what gets through is that of even matter: a Poisson number of leaves, each of which takes the part `taken`, passes exp(-leaves taken) on average. Fewer leaves than it takes to get
+    // there, each of which would have to take more than all, become as many as it takes.
+    const double even = 0.1 * std::numbers::ln10 * attenuation;
+    wave.leaves_per_m = std::max(material.leaves_per_m, even);
+    const double taken = even / wave.leaves_per_m;
     wave.leaf_loss_db = taken >= 1.0 ? infinite : -10.0 * std::log10(1.0 - taken);
+    wave.leaf_reflectivity = std::min(reflectivity, taken);
     wave.attenuation_db_per_m = 0.0;
   }
   wave.visible = wave.reflectivity > 0.0 && wave.reflectivity >= floor_power;
@@ -79,11 +82,12 @@ std::vector<WaveMaterial> wave_materials(const World& world, const RadarSpec& ra
 }
 
 Interface interface_between(const WaveMaterial* before, const WaveMaterial* after, const WaveMaterial& reflector, double cosine, bool fresnel) {
-  const bool known = (!before || before->dielectric) && (!after || after->dielectric);
+  // (The permittivity of what is clear is 1.)
+  const bool known = (!before || before->dielectric || before->clear()) && (!after || after->dielectric || after->clear());
   if (!fresnel || !known) return {reflector.reflectivity, reflector.reflectivity, 1.0 - reflector.reflectivity};
   const Complex eta_before = before ? before->permittivity : Complex(1.0), eta_after = after ? after->permittivity : Complex(1.0);
   // Between one medium and the open the reflectivity at normal incidence is known already.
-  const double square = before && after ? fresnel_reflectivity(eta_before, eta_after, 1.0) : reflector.reflectivity;
+  const double square = before && after && before->dielectric && after->dielectric ? fresnel_reflectivity(eta_before, eta_after, 1.0) : reflector.reflectivity;
   if (reflector.diffuse >= 1.0) return {square, 0.0, 1.0 - square};
   const double mirrored = fresnel_reflectivity(eta_before, eta_after, cosine);
   return {square, mirrored, 1.0 - split(reflector, square, mirrored)};
@@ -99,7 +103,7 @@ Interface slab_interface(const WaveMaterial& material, double frequency_ghz, dou
 double backscatter(const WaveMaterial& surface, double reflectivity, double cosine, double spread) {
   double sent = surface.diffuse * cosine;
   if (surface.diffuse < 1.0 && cosine > 0.0) {
-    const double slope_squared = surface.slope * surface.slope + spread * spread;
+    const double slope_squared = surface.slope * surface.slope + spread * spread / (cosine * cosine);
     const double shadow = unshadowed(cosine, slope_squared);
     sent += (1.0 - surface.diffuse) * std::numbers::pi * facets(cosine, slope_squared) * shadow * shadow / (4.0 * cosine);
   }
@@ -111,10 +115,10 @@ double bistatic(const WaveMaterial& surface, const Interface& interface, const g
   if (cosine_in <= 0.0 || cosine_out <= 0.0) return 0.0;
   double sent = surface.diffuse * interface.reflectivity * cosine_out;
   if (surface.diffuse < 1.0) {
-    const double slope_squared = surface.slope * surface.slope + spread * spread;
+    const double slope_squared = surface.slope * surface.slope + spread * spread / (cosine_in * cosine_out);
     const glm::dvec3 half = glm::normalize(out - in);
     const double tilt = std::min(1.0, glm::dot(half, normal)), facing = std::min(1.0, glm::dot(half, out));
-    const double mirrored = fresnel && surface.dielectric ? fresnel_reflectivity(1.0, surface.permittivity, facing) : interface.reflectivity;
+    const double mirrored = fresnel && surface.dielectric ? fresnel_reflectivity(1.0, surface.permittivity, facing) : interface.mirrored;
     sent += (1.0 - surface.diffuse) * mirrored * std::numbers::pi * facets(tilt, slope_squared) * unshadowed(cosine_in, slope_squared) * unshadowed(cosine_out, slope_squared) / (4.0 * cosine_in);
   }
   return sent;

@@ -32,11 +32,15 @@ RadarNumbers numbers_of(const Dielectric& dielectric, double frequency_ghz) {
 
 Slab slab_of(const Dielectric& dielectric, double frequency_ghz, double thickness, double incidence) {
   const double cosine = std::cos(incidence), sine = std::sin(incidence);
-  const Complex inside = std::sqrt(permittivity(dielectric, frequency_ghz) - sine * sine);
-  const Complex face = (cosine - inside) / (cosine + inside);
+  const Complex eta = permittivity(dielectric, frequency_ghz), inside = std::sqrt(eta - sine * sine);
   const Complex once = std::exp(Complex(0.0, -1.0) * (wave_number(frequency_ghz) * thickness * inside));
-  const Complex inner = 1.0 - face * face * once * once;
-  return {std::norm(face * (1.0 - once * once) / inner), std::norm((1.0 - face * face) * once / inner)};
+  Slab mean;
+  for (const Complex face : {(cosine - inside) / (cosine + inside), (eta * cosine - inside) / (eta * cosine + inside)}) {  // TE, TM
+    const Complex inner = 1.0 - face * face * once * once;
+    mean.reflected += 0.5 * std::norm(face * (1.0 - once * once) / inner);
+    mean.transmitted += 0.5 * std::norm((1.0 - face * face) * once / inner);
+  }
+  return mean;
 }
 
 Slab slab_of_powers(const Material& material, double thickness, double incidence) {

@@ -300,3 +300,142 @@ TEST_CASE("the number of threads does not change one bit of a lobe") {
       CHECK(std::bit_cast<std::uint32_t>(one.profiles.amplitude[i]) == std::bit_cast<std::uint32_t>(two.profiles.amplitude[i]));
   }
 }
+
+TEST_CASE("where nothing lets a wave through, the short way to the echoes gives those of the long one") {
+  CHECK(rc::check("opaque worlds", [] {
+    Dice dice(*rc::gen::arbitrary<std::uint64_t>());
+    HandMadeWorld w;
+    for (int m = 0; m < 3; ++m) {
+      const auto index = w.material("m", dice.between(0.0, 1.0), infinity);
+      w.world.materials[index].roughness = dice.between(0.0, 1.0);
+    }
+    for (int i = 0; i < 25; ++i) {
+      const glm::dvec3 at = dice.between(1.0, 8.0) * dice.direction();
+      // Boxes on a grid, so that faces lie in faces.
+      if (dice.chance(0.3)) w.add(Sphere{dice.between(0.1, 0.6)}, at, 0.0, dice.pick(3));
+      else if (const glm::dvec3 middle = glm::round(at) + glm::dvec3(0.5, 0.5, 0.0); glm::length(middle) > 1.0) w.add(Box{{1.0, 1.0, 1.0}}, middle, 0.0, dice.pick(3));  // not about the sensor
+    }
+    HandMadeWorld with_foil = w;  // far away: now surfaces are looked for behind surfaces
+    with_foil.add(Box{{1.0, 1.0, 1.0}}, {5000.0, 0.0, 0.0}, 0.0, with_foil.material("foil", 0.1, 1.0));
+    LobeRadarSpec spec = bare_lobe(100.0, 20);
+    spec.echoes = "traced";
+    spec.bounces_max = 1 + dice.pick(3);
+    const Scan shorter = measured(spec, traced(w)), longer = measured(spec, traced(with_foil));
+    RC_ASSERT(shorter.echoes.size() == longer.echoes.size());
+    for (std::size_t i = 0; i < shorter.echoes.size(); ++i) {
+      RC_ASSERT(std::abs(shorter.echoes[i].range - longer.echoes[i].range) < 1e-9);
+      RC_ASSERT(std::abs(shorter.echoes[i].amplitude - longer.echoes[i].amplitude) <= 1e-4f * longer.echoes[i].amplitude + 1e-9f);
+      RC_ASSERT(shorter.echoes[i].bounces == longer.echoes[i].bounces);
+    }
+    for (std::size_t i = 0; i < shorter.beams.size(); ++i) {
+      RC_ASSERT(shorter.beams[i].end == longer.beams[i].end);
+      RC_ASSERT(std::abs(shorter.beams[i].sensed_range - longer.beams[i].sensed_range) < 1e-9);
+    }
+  }));
+}
+
+TEST_CASE("a pane in smoke that no radar sees is a pane in the open") {
+  const auto beam_through = [](bool smoke) {
+    HandMadeWorld w;
+    rough_metal(w);
+    Material glass;
+    glass.dielectric = Dielectric{6.31, 0.0, 0.0036, 1.3394};
+    glass.roughness = 0.0;
+    w.world.materials.push_back(glass);
+    w.add(Box{{1.0, 50.0, 50.0}}, {8.5, 0.0, 0.0});
+    w.add(Box{{0.006, 50.0, 50.0}}, {4.0, 0.0, 0.0}, 0.0, 1);
+    if (smoke) w.add(Box{{20.0, 20.0, 20.0}}, {0.0, 0.0, 0.0}, 0.0, w.material("smoke", 0.0, 1e-6, true, false));
+    ScanningRadarSpec spec = one_beam_radar();
+    spec.scattering = "material";
+    spec.fresnel = true;
+    spec.slab_max_m = 0.1;
+    spec.detection_floor_db = -150.0;
+    return looked(spec, traced(w));
+  };
+  const OneBeam open = beam_through(false), smoky = beam_through(true);
+  REQUIRE(open.echoes.size() == 2);
+  REQUIRE(smoky.echoes.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(smoky.echoes[i].edge == open.echoes[i].edge);
+    CHECK(smoky.power(i) == doctest::Approx(open.power(i)).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("leaves in rain, leaves that would take more than all, leaves that move") {
+  HandMadeWorld w;
+  rough_metal(w);
+  Material crown;
+  crown.reflectivity = 0.05;
+  crown.attenuation_db_per_m = 20.0;
+  crown.leaves_per_m = 1.0;  // each would have to take 4.6 of all there is
+  w.world.materials.push_back(crown);
+  const auto rain = w.material("rain", 0.0, 0.2);
+  const auto bush = w.add(Box{{0.2, 50.0, 50.0}}, {4.0, 0.0, 0.0}, 0.0, 1);
+  w.add(Box{{200.0, 50.0, 60.0}}, {0.0, 0.0, 0.0}, 0.0, rain);
+  w.add(Box{{1.0, 50.0, 50.0}}, {50.5, 0.0, 0.0});
+  Motion motion;
+  motion.points = {{4.0, 0.0, 0.0}, {14.0, 0.0, 0.0}};
+  motion.speed = 2.0;
+  w.world.solids[bush].motion = std::make_shared<const Motion>(motion);
+  const Scene scene = traced(w);
+  ScanningRadarSpec spec = one_beam_radar();
+  spec.statistical_foliage = spec.radial_velocity = true;
+  spec.penetration_budget_db = 10.0;  // 50 m of rain but for the bush: 9.96 dB
+  const auto sensor = make_sensor(spec, 0);
+  Scan scan;
+  const int scans = 4000;
+  int through = 0, leaves = 0;
+  for (int i = 0; i < scans; ++i) {
+    sensor->measure(scene, Pose{}, 0.0, static_cast<std::uint64_t>(i), Random(1, 0), scan);
+    for (const Echo& e : scan.echoes) {
+      through += e.range > 49.0;
+      leaves += e.range < 5.0;
+      if (e.range < 5.0) CHECK(e.radial_velocity == doctest::Approx(2.0f));
+    }
+  }
+  // On average as much gets through as through even matter of 4 dB: here a leaf stops all, so it is the share of the rays that meet none.
+  const double share = std::pow(10.0, -0.4);
+  CHECK(std::abs(through - share * scans) < 3.5 * std::sqrt(scans * share * (1.0 - share)));
+  CHECK(through + leaves == scans);
+}
+
+TEST_CASE("the ways back are longer in matter too, and a beam ends where its last echo seems to be") {
+  HandMadeWorld w;
+  rough_metal(w);
+  Material glass;
+  glass.dielectric = Dielectric{4.0, 0.0, 0.0, 0.0};  // index 2
+  w.world.materials.push_back(glass);
+  w.add(Box{{1.0, 50.0, 50.0}}, {8.0, 0.0, 0.0});
+  w.add(Box{{0.3, 50.0, 50.0}}, {4.0, 0.0, 0.0}, 0.0, 1);
+  ScanningRadarSpec spec = one_beam_radar();
+  spec.excess_range = true;
+  const OneBeam beam = looked(spec, traced(w));
+  CHECK(beam.beam.end == BeamEnd::stopped);
+  CHECK(beam.beam.sensed_range == doctest::Approx(7.8).epsilon(1e-12));
+  CHECK(beam.beam.sensed_range == beam.echoes.back().range);
+}
+
+TEST_CASE("traced rays of a lobe count by its gain, and none is outside its section") {
+  HandMadeWorld w;
+  rough_metal(w);
+  for (const glm::dvec3& side : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})  // a hollow cube around it
+    for (const double sign : {1.0, -1.0}) w.add(Box{glm::dvec3(9.0) - 8.0 * side}, sign * 4.5 * side);
+  const Scene scene = traced(w);
+  LobeRadarSpec spec = bare_lobe(60.0, 21);
+  spec.echoes = "traced";
+  spec.scattering = "lambert";
+  const Scan flat = measured(spec, scene);
+  spec.gain = "gaussian";
+  const Scan formed = measured(spec, scene);
+  const std::size_t axis = 10 * 21 + 10, edge = 10 * 21;
+  REQUIRE(formed.echoes.size() == 441);
+  CHECK(formed.echoes[axis].amplitude == flat.echoes[axis].amplitude);
+  // Two-way -6 dB at half the width; the outermost ray is half a cell inside of that.
+  const double off = (30.0 - 30.0 / 21.0) / 30.0;
+  CHECK(20.0 * std::log10(formed.echoes[edge].amplitude / flat.echoes[edge].amplitude) == doctest::Approx(-20.0 * std::log10(2.0) * off * off).epsilon(1e-4));
+  spec.section = "elliptic";
+  spec.sampling = "jitter";
+  const Scan round = measured(spec, scene);
+  for (const Beam& beam : round.beams)
+    if (beam.echo_count > 0) CHECK(std::hypot(beam.azimuth, beam.elevation) <= radians(30.0) + 1e-9);
+}

@@ -201,3 +201,64 @@ TEST_CASE("between panes a ray splits into a thousand ways at most, those of the
   const auto up_to_3 = [](const Scan& scan) { return std::ranges::count_if(scan.echoes, [](const Echo& e) { return e.bounces <= 3; }); };
   CHECK(up_to_3(many) == up_to_3(few));
 }
+
+TEST_CASE("a corner of mirrors returns what its image does") {
+  // The image of a sensor in two mirrors at right angles is behind their edge, as far as the sensor before it: as a mirror at the edge would, pi R^2 in all.
+  for (const auto& [height, away] : {std::pair{2.0, 3.0}, {1.0, 2.0}, {1.5, 1.0}}) {
+    CAPTURE(height);
+    HandMadeWorld w;
+    const auto glass = mirror(w);
+    w.add(Box{{100.0, 100.0, 1.0}}, {0.0, 0.0, -height - 0.5}, 0.0, glass);
+    w.add(Box{{1.0, 100.0, 100.0}}, {away + 0.5, 0.0, 0.0}, 0.0, glass);
+    const Scene scene = traced(w);
+    const double pitch = std::atan2(height, away), edge = std::hypot(height, away);
+    const Pose towards_edge{{0.0, 0.0, 0.0}, glm::dquat(std::cos(0.5 * pitch), 0.0, std::sin(0.5 * pitch), 0.0)};
+    LobeRadarSpec spec = bare_lobe(40.0, 58);
+    spec.bounces_max = 2;
+    const auto of_corner = [&](const Scan& scan) {
+      // What the two mirrors return by themselves, one bounce, is not in a lobe of 40 degrees; what is at the edge's range is the corner.
+      double sum = 0.0;
+      const auto profile = scan.profiles.amplitude_of(0);
+      for (std::uint32_t bin = 0; bin < profile.size(); ++bin)
+        if (std::abs(scan.profiles.range(bin) - edge) < 0.3) sum += static_cast<double>(profile[bin]) * static_cast<double>(profile[bin]);
+      return sum;
+    };
+    const double expected = power_of(pi * edge * edge, edge, spec);
+    for (const int rays : {50, 58, 64}) {  // (even: the middle row of an odd grid would meet the very edge)
+      CAPTURE(rays);
+      spec.azimuth_rays = spec.elevation_rays = rays;
+      CHECK(std::abs(10.0 * std::log10(of_corner(measured(spec, scene, towards_edge)) / expected)) < 0.5);
+    }
+    spec.sampling = "jitter";
+    const auto sensor = make_sensor(spec, 0);
+    Scan scan;
+    const Estimate mean = estimate(40, [&](std::uint64_t number) {
+      sensor->measure(scene, towards_edge, 0.0, number, Random(1, 0), scan);
+      return of_corner(scan);
+    });
+    CHECK(std::abs(10.0 * std::log10(mean.mean / expected)) < 0.5);
+  }
+}
+
+TEST_CASE("on the way back the penetration budget counts too, and what is opaque behind it still stops the wave") {
+  MirrorWorld world;
+  const auto fog = world.material("fog", 0.0, 20.0);
+  world.add(Box{{0.6, 0.6, 2.0}}, {2.4, 1.8, 0.0}, std::atan2(3.0, 4.0), fog);   // 0.6 m, 12 dB, on the straight way back
+  HandMadeWorld and_metal = world;
+  and_metal.add(Box{{0.3, 0.3, 2.0}}, {0.8, 0.6, 0.0}, 0.0, 1);
+  const auto straight = [](const HandMadeWorld& w, double budget) {
+    LobeRadarSpec spec = bare_lobe(90.0, 3, 20.0);
+    spec.echoes = "traced";
+    spec.bounces_max = 2;
+    spec.penetration_budget_db = budget;
+    const Scan scan = measured(spec, traced(w));
+    double amplitude = 0.0;
+    for (const Echo& e : scan.echoes_of(scan.beams[4]))
+      if (near(e, 6.0)) amplitude = e.amplitude;
+    return amplitude;
+  };
+  CHECK(straight(world, 20.0) > 0.0);
+  CHECK(straight(world, 10.0) == 0.0);
+  CHECK(straight(and_metal, 20.0) == 0.0);
+  CHECK(straight(and_metal, 10.0) == 0.0);
+}

@@ -36,14 +36,19 @@ double in_db(double power) {
   return 10.0 * std::log10(power);
 }
 
-/// The slab by another way than the formula under test: the characteristic matrix of a layer between two half spaces of air, TE.
+/// The slab by another way than the formula under test: the characteristic matrix of a layer between two half spaces of air, the mean of TE and TM, which differ by their admittances.
 Slab by_matrix(const Dielectric& d, double frequency_ghz, double thickness, double incidence) {
   using Complex = std::complex<double>;
   const Complex j(0.0, 1.0), eta = permittivity(d, frequency_ghz);
-  const double outside = std::cos(incidence), k = 2.0 * pi * 1e9 * frequency_ghz / 299792458.0;
-  const Complex inside = std::sqrt(eta - std::sin(incidence) * std::sin(incidence)), phase = k * thickness * inside;
-  const Complex b = std::cos(phase) + j * std::sin(phase) * outside / inside, c = j * inside * std::sin(phase) + std::cos(phase) * outside;
-  return {std::norm((outside * b - c) / (outside * b + c)), std::norm(2.0 * outside / (outside * b + c))};
+  const double k = 2.0 * pi * 1e9 * frequency_ghz / 299792458.0;
+  const Complex q = std::sqrt(eta - std::sin(incidence) * std::sin(incidence)), phase = k * thickness * q;
+  Slab mean;
+  for (const auto& [outside, inside] : {std::pair(std::cos(incidence), q), std::pair(1.0 / std::cos(incidence), eta / q)}) {
+    const Complex b = std::cos(phase) + j * std::sin(phase) * outside / inside, c = j * inside * std::sin(phase) + std::cos(phase) * outside;
+    mean.reflected += 0.5 * std::norm((outside * b - c) / (outside * b + c));
+    mean.transmitted += 0.5 * std::norm(2.0 * outside / (outside * b + c));
+  }
+  return mean;
 }
 
 struct Reading {

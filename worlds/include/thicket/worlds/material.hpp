@@ -55,8 +55,8 @@ std::vector<Material> at_frequency(const std::vector<Material>& materials, doubl
 struct Slab {
   double reflected = 0.0, transmitted = 0.0;
 };
-/// A slab of a thickness in m, > 0, met at an angle of incidence in [0, pi/2), in rad. Of a dielectric: all inner reflections in phase, electric field parallel to the
-/// surface (TE) (ITU-R P.2040-3, single-layer slab). Of any other material, whose phase is not known: inner reflections added by power, along the straight way.
+/// A slab of a thickness in m, > 0, met at an angle of incidence in [0, pi/2), in rad. Of a dielectric: all inner reflections in phase, the mean of both polarisations
+/// (ITU-R P.2040-3, single-layer slab). Of any other material, whose phase is not known: inner reflections added by power, along the straight way.
 Slab slab(const Material& material, double frequency_ghz, double thickness_m, double incidence = 0.0);
 
 /// The materials that are shipped (worlds/presets/materials.toml), in the order of the file.
