@@ -125,9 +125,9 @@ SubRay Antenna::jittered(const SubRay& ray, const std::array<double, 2>& u) cons
   SubRay moved = ray;
   moved.azimuth += (u[0] - 0.5) * ray.azimuth_cell;
   if (lobe_) {
-    moved.elevation += (u[1] - 0.5) * ray.elevation_cell;
+    moved.elevation = place_in(ray, u).y;
     moved.gain = gain(moved.azimuth, moved.elevation);
-    moved.share = two_way_solid_angle_ > 0.0 ? moved.gain * moved.gain * std::cos(moved.elevation) * ray.azimuth_cell * ray.elevation_cell / two_way_solid_angle_ : 0.0;
+    moved.share = share(ray, moved.gain, std::cos(moved.elevation));
   } else if (rows_opening_ > 0.0) {
     moved.elevation += (u[1] - 0.5) * ray.elevation_cell;
     moved.share = std::cos(moved.elevation) * ray.elevation_cell / (2.0 * std::sin(0.5 * rows_opening_) * in_row_);

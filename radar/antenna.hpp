@@ -40,6 +40,13 @@ class Antenna {
   /// and down over it, and count by the cosine of the elevation of their middles.
   SubRay jittered(const SubRay& ray, const std::array<double, 2>& u) const;
 
+  /// The same for a lobe in steps, for who turns the ray himself: where in its cell (azimuth, elevation), and its share once its gain and the cosine of its elevation are known.
+  static glm::dvec2 place_in(const SubRay& cell, const std::array<double, 2>& u) { return {cell.azimuth + (u[0] - 0.5) * cell.azimuth_cell, cell.elevation + (u[1] - 0.5) * cell.elevation_cell}; }
+  double share(const SubRay& cell, double gain, double cos_elevation) const {
+    return two_way_solid_angle_ > 0.0 ? gain * gain * cos_elevation * cell.azimuth_cell * cell.elevation_cell / two_way_solid_angle_ : 0.0;
+  }
+  bool is_lobe() const { return lobe_; }
+
   /// One-way power gain against the axis, 0...1 (more, if a table has its top off the axis), towards angles (rad) off a beam's axis; 0 outside the opening. A scanner's opening is
   /// here a step wide, and as high where it looks along its plane alone.
   double gain(double azimuth, double elevation) const;

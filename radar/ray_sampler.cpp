@@ -53,6 +53,8 @@ RaySampler::RaySampler(Antenna antenna, bool jitter, std::size_t drawn_from) : a
 void RaySampler::sample(std::size_t first, const Pose& sensor, double range_max, const Random& random, std::uint64_t scan, std::span<Ray> rays, std::span<RayTraits> traits) const {
   const glm::dmat3 turn = glm::mat3_cast(sensor.orientation);
   std::size_t beam = first / rays_per_beam(), slot = first % rays_per_beam();
+  std::array<double, 4> draw{};
+  std::uint64_t drawn = ~std::uint64_t{0};
   for (std::size_t i = 0; i < rays.size(); ++i) {
     std::size_t which = slot;
     if (drawn_from_ > 1) {
@@ -65,14 +67,27 @@ void RaySampler::sample(std::size_t first, const Pose& sensor, double range_max,
     glm::dvec3 local = directions_[all];
     if (!always_the_same()) traits[i] = traits_[all];
     if (jitter_) {
-      const auto u = random.uniform(scan, static_cast<std::uint32_t>(beam), RandomUse::sampling, static_cast<std::uint32_t>(which / 2));
-      const SubRay placed = antenna_.jittered(cell, which % 2 ? std::array{u[2], u[3]} : std::array{u[0], u[1]});
+      // Two rays share a draw.
+      if (const std::uint64_t pair = std::uint64_t{beam} << 32 | which / 2; pair != drawn) {
+        drawn = pair;
+        draw = random.uniform(scan, static_cast<std::uint32_t>(beam), RandomUse::sampling, static_cast<std::uint32_t>(which / 2));
+      }
+      const std::array<double, 2> u = which % 2 ? std::array{draw[2], draw[3]} : std::array{draw[0], draw[1]};
       Angles a = angles_[all];
-      turn_on(a.cos_azimuth, a.sin_azimuth, placed.azimuth - cell.azimuth);
-      turn_on(a.cos_elevation, a.sin_elevation, placed.elevation - cell.elevation);
+      if (antenna_.is_lobe()) {
+        const glm::dvec2 place = Antenna::place_in(cell, u);
+        turn_on(a.cos_azimuth, a.sin_azimuth, place.x - cell.azimuth);
+        turn_on(a.cos_elevation, a.sin_elevation, place.y - cell.elevation);
+        const double gain = antenna_.gain(place.x, place.y);
+        traits[i].gain = static_cast<float>(gain);
+        traits[i].share = static_cast<float>(antenna_.share(cell, gain, a.cos_elevation));
+      } else {
+        const SubRay placed = antenna_.jittered(cell, u);
+        turn_on(a.cos_azimuth, a.sin_azimuth, placed.azimuth - cell.azimuth);
+        turn_on(a.cos_elevation, a.sin_elevation, placed.elevation - cell.elevation);
+        traits[i].share = static_cast<float>(placed.share);
+      }
       local = direction_of(a);
-      traits[i].share = static_cast<float>(placed.share);
-      traits[i].gain = static_cast<float>(placed.gain);
     }
     rays[i].origin = sensor.position;
     rays[i].direction = turn * local;
