@@ -144,9 +144,19 @@ class MediumWalk {
   std::span<const WaveMaterial> materials_;
   double slab_max_;
   std::span<const Crossing> crossings_;
-  std::vector<Event> events_;            // scratch, used again for each ray
-  std::vector<std::uint32_t> active_;
-  std::vector<const WaveMaterial*> media_;  // of the crossings
+  // A thread's memory, kept from walk to walk.
+  struct Scratch {
+    std::vector<Event> events;
+    std::vector<std::uint32_t> active;
+    std::vector<const WaveMaterial*> media;
+  };
+  static Scratch& scratch() {
+    thread_local Scratch of_thread;
+    return of_thread;
+  }
+  std::vector<Event>& events_ = scratch().events;
+  std::vector<std::uint32_t>& active_ = scratch().active;      // crossings that the ray is in
+  std::vector<const WaveMaterial*>& media_ = scratch().media;  // of the crossings
   std::uint32_t medium_ = open_space;
 };
 

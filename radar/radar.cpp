@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -70,7 +71,7 @@ class Radar final : public Sensor {
 
     const std::size_t count = p_.sampler.count();
     const bool own_traits = !p_.sampler.always_the_same(), keep_rays = received_ && p_.receiver.floor_gate, rays_are_beams = !received_ && (p_.ray_beams || p_.sampler.rays_per_beam() == 1);
-    Result result;
+    Result result = std::exchange(spare_result(), {});
     result.rays.resize(keep_rays ? count : 0);
     result.own_traits.resize(own_traits ? count : 0);
     result.traits = own_traits ? std::span<const RayTraits>(result.own_traits) : p_.sampler.traits();
@@ -94,6 +95,7 @@ class Radar final : public Sensor {
     else if (rays_are_beams) take_echoes(result, scan);
     else join_rays(result, random, number, scan);
     if (!received_) finish_beams(random, scan);
+    spare_result() = std::move(result);
   }
 
  private:
@@ -110,6 +112,12 @@ class Radar final : public Sensor {
       return std::span(traced[ray / rays_per_task].echoes).subspan(e.first_echo, e.echo_count);
     }
   };
+
+  /// A thread's memory for its next scan. (It is taken out while it is used: a thread that waits for the tasks of one scan may begin another.)
+  static Result& spare_result() {
+    thread_local Result spare;
+    return spare;
+  }
 
   const std::vector<double>& azimuths() const { return p_.sampler.antenna().beam_azimuths(); }
 

@@ -38,17 +38,37 @@ struct LookBack {
   std::uint8_t bounces = 2;
 };
 
+/// A thread's memory, kept from task to task.
+struct Scratch {
+  std::vector<Hit> hits;
+  CrossingLists lists;
+  std::vector<std::uint32_t> owners;  ///< of the echoes, with multipath
+  std::vector<std::uint32_t> ways;    ///< that each ray has split into, with multipath
+  std::vector<Leg> mirrored, legs;
+  std::vector<Ray> mirrored_rays, rays;  ///< theirs
+  std::vector<LookBack> looks;
+};
+Scratch& scratch() {
+  thread_local Scratch of_thread;
+  return of_thread;
+}
+
 class RayTracer {
  public:
   RayTracer(const TraceContext& context, std::span<const RayTraits> traits, Traced& traced)
-      : c_(context), traits_(traits), traced_(traced), walk_(context.scene, context.materials, context.radar.slab_max_m) {}
+      : c_(context), traits_(traits), traced_(traced), walk_(context.scene, context.materials, context.radar.slab_max_m), s_(scratch()) {
+    s_.owners.clear();
+    s_.mirrored.clear();
+    s_.mirrored_rays.clear();
+    s_.looks.clear();
+  }
 
   void trace(std::span<const Ray> rays) {
     traced_.echoes.clear();
     traced_.echoes.reserve(rays.size());
     traced_.rays.resize(rays.size());
     traced_.count = 0;
-    if (c_.radar.bounces_max > 1) ways_.assign(rays.size(), 0);
+    if (c_.radar.bounces_max > 1) s_.ways.assign(rays.size(), 0);
     Leg first;
     trace_all(rays, [&](std::uint32_t i) -> const Leg& {
       first.index = i;
@@ -64,12 +84,12 @@ class RayTracer {
   void trace_all(std::span<const Ray> rays, LegOf&& leg_of) {
     traced_.count += rays.size();
     if (c_.first_surface_only) {
-      hits_.resize(rays.size());
-      c_.scene.closest_hits(rays, Stops::everything, hits_);
-      for (std::uint32_t i = 0; i < rays.size(); ++i) follow_to_hit(leg_of(i), rays[i], hits_[i]);
+      s_.hits.resize(rays.size());
+      c_.scene.closest_hits(rays, Stops::everything, s_.hits);
+      for (std::uint32_t i = 0; i < rays.size(); ++i) follow_to_hit(leg_of(i), rays[i], s_.hits[i]);
     } else {
-      c_.scene.crossings(rays, c_.losses, c_.list_budget_db, lists_);
-      for (std::uint32_t i = 0; i < rays.size(); ++i) follow(leg_of(i), rays[i], lists_[i]);
+      c_.scene.crossings(rays, c_.losses, c_.list_budget_db, s_.lists);
+      for (std::uint32_t i = 0; i < rays.size(); ++i) follow(leg_of(i), rays[i], s_.lists[i]);
     }
   }
 
@@ -83,7 +103,16 @@ class RayTracer {
       return finish(leg);
     }
     start_with(leg);
-    meet(leg, {hit.range, nullptr, &material, &material, hit.solid, hit.normal, std::min(1.0, std::abs(glm::dot(hit.normal, ray.direction)))});
+    const double cosine = std::min(1.0, std::abs(glm::dot(hit.normal, ray.direction)));
+    if (c_.radar.bounces_max > 1) {
+      meet(leg, {hit.range, nullptr, &material, &material, hit.solid, hit.normal, cosine});
+    } else {  // nothing goes on from here: what comes back is all
+      if (material.visible) {
+        const double sent_back = material.diffuse >= 1.0 ? material.reflectivity * cosine : backscatter(material, material.reflectivity, cosine, traits_[leg.index].spread);
+        add_echo(leg, hit.range, sent_back, material.reflectivity, cosine, Edge::front, hit.solid);
+      }
+      end_ = {BeamEnd::stopped, hit.range};
+    }
     finish(leg);
   }
 
@@ -203,20 +232,20 @@ class RayTracer {
 
   /// What comes back the way it went. `sent_back`: as `backscatter` tells.
   void add_echo(const Leg& leg, double at, double sent_back, double reflectivity, double cosine, Edge edge, std::uint32_t solid) {
-    const double way = leg.length + at, two_way = one_way_ * one_way_;
-    double power = 0.0;
+    const double way = leg.length + at;
+    double amplitude = one_way_;  // the root of what gets there and back
     if (c_.printed) {
-      const double ratio = way / c_.range_max, amplitude = cosine * ratio * ratio;  // eq. 4.2 of Billdal 2018
-      power = reflectivity * two_way * amplitude * amplitude;
+      const double ratio = way / c_.range_max;
+      amplitude *= std::sqrt(reflectivity) * cosine * ratio * ratio;  // eq. 4.2 of Billdal 2018
     } else {
-      power = sent_back * two_way;
-      if (!c_.radar.range_compensation) power *= range_factor(way, way);
+      amplitude *= std::sqrt(sent_back);
+      if (!c_.radar.range_compensation) amplitude *= c_.range_max / std::max(way, nearest);
     }
     const double range = way + excess_;
-    if (!(power >= c_.floor_power) || range < c_.range_min || range > c_.range_max) return;
+    if (!(amplitude * amplitude >= c_.floor_power) || range < c_.range_min || range > c_.range_max) return;
     float velocity = 0.0f;
     if (c_.radar.radial_velocity) velocity = static_cast<float>(leg.rate + moving(solid, at, ray_->direction));
-    push(leg.index, {range, static_cast<float>(std::sqrt(power)), static_cast<float>(cosine), velocity, edge, leg.bounces});
+    push(leg.index, {range, static_cast<float>(amplitude), static_cast<float>(cosine), velocity, edge, leg.bounces});
   }
 
   /// How fast the way along a leg grows by the motion of the solid at its end; `change`: in minus out.
@@ -227,7 +256,7 @@ class RayTracer {
 
   void push(std::uint32_t index, const Echo& echo) {
     traced_.echoes.push_back(echo);
-    if (c_.radar.bounces_max > 1) owners_.push_back(index);
+    if (c_.radar.bounces_max > 1) s_.owners.push_back(index);
   }
 
   /// What a surface mirrors goes on, and from the second one on what it sends to the sensor is looked after.
@@ -240,16 +269,16 @@ class RayTracer {
     if (leg.bounces >= c_.radar.bounces_max || reflector.diffuse >= 1.0) return;
     Leg next = leg;
     next.one_way = one_way_ * (1.0 - reflector.diffuse) * interface.mirrored;
-    if (next.one_way < floor_at(way) || way >= c_.range_max || ways_[leg.index] == most_ways) return;
-    ++ways_[leg.index];
+    if (next.one_way < floor_at(way) || way >= c_.range_max || s_.ways[leg.index] == most_ways) return;
+    ++s_.ways[leg.index];
     const glm::dvec3 out = glm::normalize(in - 2.0 * glm::dot(in, normal) * normal);
     next.length = way;
     next.excess = excess_;
     next.loss_db = loss_db_;
     if (c_.radar.radial_velocity) next.rate = leg.rate + moving(surface.solid, surface.range, in - out);
     ++next.bounces;
-    mirrored_.push_back(next);
-    mirrored_rays_.push_back({point, out, c_.range_max - way});
+    s_.mirrored.push_back(next);
+    s_.mirrored_rays.push_back({point, out, c_.range_max - way});
   }
 
   void look_back(const Leg& leg, const Surface& surface, const Interface& interface, const glm::dvec3& point, const glm::dvec3& normal) {
@@ -270,7 +299,7 @@ class RayTracer {
     if (power < c_.floor_power) return;
     LookBack look{{point, out, back}, leg.index, power, range, static_cast<float>(std::max(0.0, glm::dot(out, normal))), 0.0f, leg.bounces};
     if (c_.radar.radial_velocity) look.velocity = static_cast<float>(0.5 * (leg.rate + moving(surface.solid, surface.range, ray_->direction - out) + glm::dot(c_.velocity, out)));
-    looks_.push_back(look);
+    s_.looks.push_back(look);
   }
 
   /// A direction of the world in the frame of the ray's beam.
@@ -283,26 +312,26 @@ class RayTracer {
 
   /// Leg after leg; then the echoes by ray and range.
   void bounce() {
-    std::vector<Leg> legs;
-    std::vector<Ray> rays;
-    while (!mirrored_.empty()) {
-      legs.swap(mirrored_);
-      rays.swap(mirrored_rays_);
-      mirrored_.clear();
-      mirrored_rays_.clear();
+    std::vector<Leg>& legs = s_.legs;
+    std::vector<Ray>& rays = s_.rays;
+    while (!s_.mirrored.empty()) {
+      legs.swap(s_.mirrored);
+      rays.swap(s_.mirrored_rays);
+      s_.mirrored.clear();
+      s_.mirrored_rays.clear();
       trace_all(rays, [&](std::uint32_t i) -> const Leg& { return legs[i]; });
     }
     arrive();
     std::vector<std::uint32_t> order(traced_.echoes.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return owners_[a] != owners_[b] ? owners_[a] < owners_[b] : traced_.echoes[a].range < traced_.echoes[b].range;
+      return s_.owners[a] != s_.owners[b] ? s_.owners[a] < s_.owners[b] : traced_.echoes[a].range < traced_.echoes[b].range;
     });
     std::vector<Echo> sorted;
     sorted.reserve(order.size());
     for (RayEnd& ray : traced_.rays) ray.first_echo = ray.echo_count = 0;
     for (const std::uint32_t i : order) {
-      RayEnd& ray = traced_.rays[owners_[i]];
+      RayEnd& ray = traced_.rays[s_.owners[i]];
       if (ray.echo_count++ == 0) ray.first_echo = static_cast<std::uint32_t>(sorted.size());
       sorted.push_back(traced_.echoes[i]);
     }
@@ -311,15 +340,15 @@ class RayTracer {
 
   /// What is between the surfaces and the sensor takes its part of what is looked back for.
   void arrive() {
-    if (looks_.empty()) return;
+    if (s_.looks.empty()) return;
     std::vector<Ray> rays;
-    rays.reserve(looks_.size());
-    for (const LookBack& look : looks_) rays.push_back(look.ray);
+    rays.reserve(s_.looks.size());
+    for (const LookBack& look : s_.looks) rays.push_back(look.ray);
     traced_.count += rays.size();
-    c_.scene.crossings(rays, c_.losses, c_.list_budget_db, lists_);
-    for (std::size_t i = 0; i < looks_.size(); ++i) {
-      const LookBack& look = looks_[i];
-      const Passage way = passage(look.ray, lists_[i]);
+    c_.scene.crossings(rays, c_.losses, c_.list_budget_db, s_.lists);
+    for (std::size_t i = 0; i < s_.looks.size(); ++i) {
+      const LookBack& look = s_.looks[i];
+      const Passage way = passage(look.ray, s_.lists[i]);
       const double power = look.power * way.passed, range = look.range + 0.5 * way.excess;
       if (power >= c_.floor_power && range <= c_.range_max) push(look.index, {range, static_cast<float>(std::sqrt(power)), look.cosine, look.velocity, Edge::front, look.bounces});
     }
@@ -367,13 +396,7 @@ class RayTracer {
   std::span<const RayTraits> traits_;
   Traced& traced_;
   MediumWalk walk_;
-  std::vector<Hit> hits_;
-  CrossingLists lists_;
-  std::vector<std::uint32_t> owners_;  // of the echoes, with multipath
-  std::vector<std::uint32_t> ways_;    // that each ray has split into, with multipath
-  std::vector<Leg> mirrored_;
-  std::vector<Ray> mirrored_rays_;  // theirs
-  std::vector<LookBack> looks_;
+  Scratch& s_;
   // The wave on the leg that is followed.
   const Ray* ray_ = nullptr;
   double one_way_ = 1.0, loss_db_ = 0.0, excess_ = 0.0;

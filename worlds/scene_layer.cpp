@@ -59,15 +59,17 @@ void part_callback(const RTCIntersectFunctionNArguments* arguments) {
     if (arguments->valid[i] != -1) continue;
     const unsigned lane_index = RTCRayN_id(rays, arguments->N, i);
     const LaneRay& lane = query.lanes[lane_index];
-    PartCrossing crossing;
+    PartInterval interval;
     if (instance) {
       const ShearedRay& inner = query.inner_ray(*instance, lane_index);
-      if (!cross(part, inner.origin, inner.direction, crossing.interval)) continue;
-    } else if (!cross(part, lane.origin, lane.direction, crossing.interval)) {
+      if (!cross(part, inner.origin, inner.direction, interval)) continue;
+    } else if (!cross(part, lane.origin, lane.direction, interval)) {
       continue;
     }
     // A part that is left at 0 counts where another part of its solid goes on from there: the ray then starts inside.
-    if (!(crossing.interval.leave >= 0.0) || crossing.interval.enter > lane.range_max) continue;
+    if (!(interval.leave >= 0.0) || interval.enter > lane.range_max || query.behind(lane_index, interval.enter)) continue;
+    PartCrossing crossing;
+    crossing.interval = interval;
     crossing.solid = instance ? instance->solid : part.solid;
     crossing.kind = kind_of<Part>;
     crossing.part = crossing.leave_part = arguments->primID;

@@ -82,6 +82,9 @@ struct Query : embree::Context {
   double meet(unsigned lane, const PartCrossing& crossing) { return nearest ? nearest->meet(lane, crossing) : gatherer->meet(lane, crossing); }
   double meet(unsigned lane, const SurfaceHit& hit) { return nearest ? nearest->meet(lane, hit, triangle_kind) : gatherer->meet(lane, hit, triangle_kind); }
 
+  /// Whether what is entered at a range is behind all that a lane still wants.
+  bool behind(unsigned lane, double enter) const { return nearest && enter > nearest->range[lane]; }
+
   /// The instance that Embree is in, or nothing.
   const Instance* instance() const { return instID[0] == RTC_INVALID_GEOMETRY_ID ? inside_of : &(*instances)[instID[0] - instance_kind]; }
   /// A lane's ray in the frame of an instance; kept until another instance is asked for, since Embree stays in one until it is through with it.
