@@ -17,8 +17,10 @@
 namespace thicket {
 namespace {
 
-/// Rays are traced in tasks of this many, whatever the number of threads; fewer stay on one core, since starting the others costs more than it saves (measured, tests/bench).
-constexpr std::size_t rays_per_task = 512;
+/// Rays are traced in tasks of this many, whatever the number of threads.
+constexpr std::size_t rays_per_task = 256;
+/// Shorter scans stay on one core: starting the others costs more than it saves (measured, tests/bench).
+constexpr std::size_t rays_for_threads = 513;
 
 /// Which of the rays of a row of a beam give what it returns.
 enum class Choice { all, drawn, incidence, strongest };
@@ -70,12 +72,14 @@ class Radar final : public Sensor {
     const TraceContext context(scene, p_.wave, spec().range_min_m, spec().range_max_m, p_.sampler.antenna(), sensor, velocity, random, number);
 
     const std::size_t count = p_.sampler.count();
-    const bool own_traits = !p_.sampler.always_the_same(), keep_rays = received_ && p_.receiver.floor_gate, rays_are_beams = !received_ && (p_.ray_beams || p_.sampler.rays_per_beam() == 1);
+    const bool own_traits = !p_.sampler.always_the_same(), rays_are_beams = !received_ && (p_.ray_beams || p_.sampler.rays_per_beam() == 1);
     Result result = std::exchange(spare_result(), {});
-    result.rays.resize(keep_rays ? count : 0);
+    const Ground ground = received_ && p_.receiver.floor_gate ? ground_below(context) : Ground{};
+    result.ground.resize(ground.material ? count : 0);
     result.own_traits.resize(own_traits ? count : 0);
     result.traits = own_traits ? std::span<const RayTraits>(result.own_traits) : p_.sampler.traits();
     result.traced.resize((count + rays_per_task - 1) / rays_per_task);
+    result.returns.resize(result.traced.size());
     scan.beams.resize(rays_are_beams ? count : 0);
     const auto task = [&](std::size_t t) {
       const std::size_t first = t * rays_per_task, size = std::min(count - first, rays_per_task);
@@ -83,11 +87,17 @@ class Radar final : public Sensor {
       const std::span<Ray> rays = std::span(buffer).first(size);
       p_.sampler.sample(first, sensor, spec().range_max_m, random, number, rays, own_traits ? std::span(result.own_traits).subspan(first, size) : std::span<RayTraits>());
       trace_rays(context, rays, result.traits.subspan(first, size), result.traced[t]);
-      if (keep_rays) std::ranges::copy(rays, result.rays.begin() + static_cast<std::ptrdiff_t>(first));
+      if (ground.material)
+        for (std::size_t i = 0; i < size; ++i) result.ground[first + i] = from_ground(context, ground, rays[i], result.traits[first + i]);
+      if (received_ && p_.ray_beams) {
+        result.returns[t].clear();
+        for (std::size_t i = first; i < first + size; ++i) add_returns(result, i, result.returns[t]);
+      }
       if (weighted_) weigh_by_gain(result.traced[t], result.traits.subspan(first, size));
       if (rays_are_beams) take_rays_as_beams(result.traced[t], rays, result.traits.subspan(first, size), sensor, std::span(scan.beams).subspan(first, size), first);
     };
-    if (result.traced.size() == 1) task(0);
+    if (count < rays_for_threads)
+      for (std::size_t t = 0; t < result.traced.size(); ++t) task(t);
     else tbb::parallel_for(std::size_t{0}, result.traced.size(), task);
     for (const Traced& part : result.traced) scan.rays += part.count;
 
@@ -101,10 +111,11 @@ class Radar final : public Sensor {
  private:
   /// The rays of a scan and what came of them.
   struct Result {
-    std::vector<Ray> rays;              ///< if the floor gate wants them
+    std::vector<Return> ground;         ///< what each ray would bring back from the ground; with a floor gate
     std::vector<RayTraits> own_traits;  ///< if this scan's are its own
     std::span<const RayTraits> traits;
-    std::vector<Traced> traced;
+    std::vector<Traced> traced;                 ///< by task
+    std::vector<std::vector<Return>> returns;   ///< by task; of a lobe that has a receiver
 
     const RayEnd& end(std::size_t ray) const { return traced[ray / rays_per_task].rays[ray % rays_per_task]; }
     std::span<const Echo> echoes(std::size_t ray) const {
@@ -280,23 +291,29 @@ class Radar final : public Sensor {
     }
   }
 
+  void add_returns(const Result& result, std::size_t ray, std::vector<Return>& returns) const {
+    for (const Echo& echo : result.echoes(ray)) returns.push_back({echo.range, static_cast<float>(standing_for() * strength(result.traits[ray], echo)), echo.radial_velocity});
+  }
+
   /// As the receiver sees it: a profile for each beam, and its detections.
   void receive(const TraceContext& context, const Result& result, Scan& scan) const {
     const std::size_t beams = azimuths().size();
     receiver_.start(beams, scan.profiles);
     std::vector<std::vector<Echo>> detections(beams);
-    const Ground ground = p_.receiver.floor_gate ? ground_below(context) : Ground{};
     const auto one_beam = [&](std::size_t b) {
       std::vector<std::size_t> chosen;
-      std::vector<Return> returns, from_ground;
-      choose_rays(result, b, context.random, context.scan, chosen);
-      returns.reserve(2 * chosen.size());
-      for (const std::size_t ray : chosen) {
-        for (const Echo& echo : result.echoes(ray))
-          returns.push_back({echo.range, static_cast<float>(standing_for() * strength(result.traits[ray], echo)), echo.radial_velocity});
-        if (ground.material) add_ground(context, ground, result.rays[ray], result.traits[ray], from_ground);
+      std::vector<Return> returns, ground;
+      if (p_.ray_beams) {  // the beam is all there is
+        for (const auto& part : result.returns) returns.insert(returns.end(), part.begin(), part.end());
+        ground = result.ground;
+      } else {
+        choose_rays(result, b, context.random, context.scan, chosen);
+        for (const std::size_t ray : chosen) {
+          add_returns(result, ray, returns);
+          if (!result.ground.empty()) ground.push_back(result.ground[ray]);
+        }
       }
-      receiver_.receive(returns, from_ground, context.random, context.scan, static_cast<std::uint32_t>(b), scan.profiles, detections[b]);
+      receiver_.receive(returns, ground, context.random, context.scan, static_cast<std::uint32_t>(b), scan.profiles, detections[b]);
     };
     if (beams == 1) one_beam(0);
     else tbb::parallel_for(std::size_t{0}, beams, one_beam);
@@ -323,16 +340,16 @@ class Radar final : public Sensor {
     if (hit.solid == no_solid || !(hit.range > 0.0)) return {};
     return {hit.range, &context.materials[context.scene.world().solids[hit.solid].material]};
   }
-  /// What a ray would bring back from the ground if nothing else were there.
-  void add_ground(const TraceContext& context, const Ground& ground, const Ray& ray, const RayTraits& traits, std::vector<Return>& returns) const {
+  /// What a ray would bring back from the ground if nothing else were there; nothing from where it does not meet it.
+  Return from_ground(const TraceContext& context, const Ground& ground, const Ray& ray, const RayTraits& traits) const {
     const double cosine = -ray.direction.z;
-    if (!(cosine > 0.0)) return;
+    if (!(cosine > 0.0)) return {};
     const double range = (ground.depth + (ray.origin.z - context.sensor.position.z)) / cosine;
-    if (!(range > 0.0) || range > spec().range_max_m) return;
+    if (!(range > 0.0) || range > spec().range_max_m) return {};
     const double ratio = range / spec().range_max_m, back = backscatter(*ground.material, ground.material->reflectivity, cosine, traits.spread);
-    const double power = printed_ ? printed_unit_ * static_cast<double>(traits.gain) * cosine * ratio * ratio * std::sqrt(ground.material->reflectivity)
-                                  : static_cast<double>(traits.share) * back / (p_.wave.range_compensation ? 1.0 : ratio * ratio);
-    returns.push_back({range, static_cast<float>(power), 0.0f});
+    const double strength = printed_ ? printed_unit_ * static_cast<double>(traits.gain) * cosine * ratio * ratio * std::sqrt(ground.material->reflectivity)
+                                     : static_cast<double>(traits.share) * back / (p_.wave.range_compensation ? 1.0 : ratio * ratio);
+    return {range, static_cast<float>(strength), 0.0f};
   }
 
   void finish_beams(const Random& random, Scan& scan) const {
