@@ -43,7 +43,7 @@ if [[ ${1:-all} == all || $1 == radar ]]; then
   scan lobe strafe/mirror --pose 0,0,0.5,0 --sensor x4m05 --set 'detection="all"' --set bin_count=192 --set bin_size_m=0.0514
   scan smoothing strafe/mirror --pose 0,0,0.5,0 --sensor x4m05 --set smoothing_bins=15 --set noise=0.008 --compare x4m05
   scan cfar test_room/test_room --pose 1,2.6,1,0 --sensor x4m05 --set 'detector="ca_cfar"' --set cfar_guard_bins=25 --set cfar_training_bins=50 --set floor_gate=false --compare x4m05
-  scan floor_gate strafe/pole --pose 0,0.6,1,0 --sensor x4m05 --set floor_gate=false --compare x4m05
+  scan floor_gate test_room/test_room --pose 0,2.5,1,180 --sensor x4m05 --set floor_gate=false --compare x4m05
 fi
 if [[ ${1:-all} == all || $1 == maps ]]; then
   for mission in foliage_wall/{bug1,bug2,closed,smoke,map_radar,map_lidar} rooms/{convex,u,spiral}; do map "$mission"; done

@@ -108,7 +108,7 @@ class RayTracer {
       meet(leg, {hit.range, nullptr, &material, &material, hit.solid, hit.normal, cosine});
     } else {  // nothing goes on from here: what comes back is all
       if (material.visible) {
-        const double sent_back = material.diffuse >= 1.0 ? material.reflectivity * cosine : backscatter(material, material.reflectivity, cosine, traits_[leg.index].spread);
+        const double sent_back = material.diffuse >= 1.0 ? material.reflectivity * cosine : backscatter(material, material.reflectivity, cosine, spread_on(leg, material, hit.solid, hit.range));
         add_echo(leg, hit.range, sent_back, material.reflectivity, cosine, Edge::front, hit.solid);
       }
       end_ = {BeamEnd::stopped, hit.range};
@@ -202,7 +202,7 @@ class RayTracer {
     if (reflector.crown()) return true;  // its leaves are met inside
     const Interface interface = surface.slab > 0.0 ? slab_interface(reflector, c_.radar.frequency_ghz, surface.slab, surface.cosine)
                                                    : interface_between(surface.before, surface.after, reflector, surface.cosine, c_.radar.fresnel);
-    const double spread = traits_[leg.index].spread;
+    const double spread = spread_on(leg, reflector, surface.solid, surface.range);
     if (was_matter || is_matter || (surface.slab > 0.0 && reflector.visible)) {
       const Edge edge = surface.slab > 0.0 ? Edge::thin : !was_matter ? Edge::front : is_matter ? Edge::inner : Edge::back;
       add_echo(leg, surface.range, backscatter(reflector, interface.reflectivity, surface.cosine, spread), interface.reflectivity, surface.cosine, edge, surface.solid);
@@ -222,6 +222,16 @@ class RayTracer {
       return false;
     }
     return true;
+  }
+
+  /// The angle that a ray stands for where it meets a surface: over its cell the normal of a sphere turns too, by the way over the radius. (Not of a cylinder, which is round one way and straight the
+  /// other.) Only for what is smooth, and only so far that a lobe is still one.
+  double spread_on(const Leg& leg, const WaveMaterial& material, std::uint32_t solid, double at) const {
+    constexpr double widest = 0.25;  // rad
+    const double spread = traits_[leg.index].spread;
+    if (material.diffuse >= 1.0 || solid == no_solid || spread >= widest) return spread;
+    const auto* sphere = std::get_if<Sphere>(&c_.scene.world().solids[solid].shape);
+    return sphere ? std::min(widest, spread * (1.0 + (leg.length + at) / sphere->radius)) : spread;
   }
 
   /// How much stronger a return is by the length of its way back, or weaker, in m; `range`: half of its whole way.
@@ -288,7 +298,7 @@ class RayTracer {
     if (!(back > 0.0) || range > c_.range_max || range < c_.range_min) return;
     const glm::dvec3 out = to_sensor / back;
     const WaveMaterial& reflector = *surface.reflector;
-    const double sent_back = bistatic(reflector, interface, ray_->direction, out, normal, sent.spread, c_.radar.fresnel && surface.slab == 0.0);
+    const double sent_back = bistatic(reflector, interface, ray_->direction, out, normal, spread_on(leg, reflector, surface.solid, surface.range), c_.radar.fresnel && surface.slab == 0.0);
     // The diffuse share comes again by the same way in the other direction, which no ray is sent along; mirrored ways are found from both ends.
     const double again = reflector.diffuse * interface.reflectivity * std::max(0.0, glm::dot(out, normal));
     double power = (sent_back + again) * one_way_ * range_factor(back, range);

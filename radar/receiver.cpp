@@ -19,8 +19,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double pulse_end = 4.3;
 /// No pulse is longer than this either way: that is as many bins as a receiver may have.
 constexpr double longest_pulse_bins = 1e6;
-/// Amplitude against that of the ground alone which a top takes under the floor gate: 6 dB, for noise and for ground that is not as smooth as what is counted on.
-constexpr float floor_gate_margin = 2.0f;
+/// Under the floor gate a top takes the threshold and this many times the ground's amplitude: noise rides on what the ground returns, which is not quite that of the even ground that is counted on.
+constexpr float floor_gate_margin = 1.5f;
 /// Bins whose signal is worked out together; small enough for their sums to stay in registers.
 constexpr std::size_t block = 16;
 /// Returns whose phases are worked out together.
@@ -116,7 +116,7 @@ Receiver::Receiver(const ReceiverSpec& spec, const RadarSpec& wave, double range
     pulse_.push_back(static_cast<float>(std::exp((sum_ == Sum::powers ? -1.0 : -0.5) * x * x)));
   }
   margin_ = up_to_block(pulse_.size());
-  velocity_reach_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(deviation, longest_pulse_bins))) + smoothed_after_;
+  velocity_reach_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(pulse_.size()) - 1) + smoothed_after_;
 
   const double root = std::sqrt(static_cast<double>(spec.smoothing_bins)), rate = spec.false_alarm_rate;
   noise_ = spec.noise ? *spec.noise : threshold_ * root / (sum_ == Sum::fields ? std::sqrt(-2.0 * std::log(rate)) : -normal_quantile(rate));
@@ -373,8 +373,11 @@ void Receiver::set_velocities(std::span<const Return> returns, std::span<Echo> t
     const std::int64_t end = std::min<std::int64_t>(bins_, bin + velocity_reach_ + 1);
     double weight = 0.0, moving = 0.0;
     for (std::int64_t b = std::max<std::int64_t>(0, bin - velocity_reach_); b < end; ++b) {
-      weight += scratch.weight[static_cast<std::size_t>(b)];
-      moving += scratch.moving[static_cast<std::size_t>(b)];
+      // As the pulse weighs it; what smoothing brings in is as near as its pulse's.
+      const auto off = static_cast<std::size_t>(std::max<std::int64_t>(0, std::abs(b - bin) - smoothed_after_));
+      const double share = off < pulse_.size() ? static_cast<double>(pulse_[off]) : 1.0;
+      weight += share * scratch.weight[static_cast<std::size_t>(b)];
+      moving += share * scratch.moving[static_cast<std::size_t>(b)];
     }
     if (weight > 0.0) top.radial_velocity = static_cast<float>(moving / weight);
   }
@@ -409,7 +412,7 @@ void Receiver::receive(std::span<const Return> returns, std::span<const Return> 
   else cfar_threshold(amplitude, threshold, scratch);
   if (floor_gate_ && !ground.empty()) {
     amplitude_of_ground(ground, scratch);
-    for (std::size_t i = 0; i < bins_; ++i) threshold[i] = std::max(threshold[i], floor_gate_margin * scratch.ground[i]);
+    for (std::size_t i = 0; i < bins_; ++i) threshold[i] += floor_gate_margin * scratch.ground[i];
   }
 
   const std::size_t before = detections.size();

@@ -8,6 +8,7 @@
 #include "program.hpp"
 #include "thicket/base/document.hpp"
 #include "thicket/base/files.hpp"
+#include "thicket/base/text.hpp"
 #include "thicket/sim/check.hpp"
 #include "thicket/sim/scan_report.hpp"
 
@@ -71,9 +72,23 @@ std::string missing_input(const std::string& name) {
   return fmt::format("there is no file '{}'; shipped ones are listed by `thicket worlds`", name);
 }
 
+namespace {
+
+/// Names of shipped worlds and missions as they are given on the command line: "rooms/u".
+std::vector<std::string> shipped_world_names() {
+  const auto root = shipped_root() / "worlds" / "data";
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root, none))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().lexically_relative(root).replace_extension().generic_string());
+  return names;
+}
+
+}  // namespace
+
 Result<std::filesystem::path> find_world(const std::string& name) {
   const auto file = find_input(name);
-  if (file.empty()) return Error{fmt::format("there is no world '{}'; shipped ones are listed by `thicket worlds`", name)};
+  if (file.empty()) return Error{fmt::format("there is no world '{}'; shipped ones are listed by `thicket worlds`{}", name, did_you_mean(name, shipped_world_names()))};
   if (is_mission(file)) return Error{fmt::format("{}: this is a mission and not a world, expected a world file", file.string())};
   return file;
 }

@@ -98,6 +98,8 @@ Result<std::vector<SensorScans>> sensors_of(const ScanArguments& a) {
     }
     auto spec = find_sensor(name, flag, changes);
     if (!spec) return spec.error();
+    if (!a.velocity.empty())  // which is asked for to see what it does
+      std::visit([](auto& s) { if constexpr (std::is_base_of_v<RadarSpec, std::decay_t<decltype(s)>>) s.radial_velocity = true; }, *spec);
     const std::string plain = name.ends_with(".toml") ? std::filesystem::path(name).stem().string() : name;
     sensors.push_back({words.empty() ? plain : fmt::format("{} with {}", plain, fmt::join(words, ", ")), std::move(*spec), {}});
     return std::nullopt;

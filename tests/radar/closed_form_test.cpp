@@ -110,6 +110,17 @@ TEST_CASE("a mirror sphere returns pi a^2, seen from near pi a^2 d^2 / R^2") {
   CHECK(std::abs(power.mean - expected) < 3.0 * power.error);
 }
 
+TEST_CASE("a mirror ball is seen in every scan, however narrow its flash") {
+  HandMadeWorld w;
+  mirror(w);
+  w.add(Sphere{0.3}, {6.0, 0.0, 0.0});
+  const LobeRadarSpec spec = bare_lobe();
+  const Estimate power = mean_power(spec, traced(w), 300);
+  const double d = 5.7, expected = power_of(pi * 0.09 * d * d / 36.0, d, spec);
+  CHECK(power.error * std::sqrt(300.0) < 1.0 * power.mean);  // a scan's own deviation
+  CHECK(std::abs(power.mean - expected) < 3.0 * power.error + 0.06 * expected);  // widened to 0.25 rad, the lobe is shadowed a little
+}
+
 TEST_CASE("what fills the lobe falls with 1/R^2, what is alone with 1/R^4") {
   const LobeRadarSpec spec = bare_lobe(20.0, 58, 40.0);
   const auto wall_at = [&](double range) { return received_power(spec, scene_of(plate(400.0, range, 0.0))); };

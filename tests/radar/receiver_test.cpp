@@ -729,9 +729,9 @@ TEST_CASE("receiver: the floor gate hides the ground, and nothing else") {
       bench.receive(both, 0, ground);
       REQUIRE(bench.found.size() == 1);
       CHECK(bench.found[0].range == about(4.0));
-      CHECK(static_cast<double>(bench.profiles.threshold[150]) == doctest::Approx(2.0 * bench[150]).epsilon(1e-4));
+      CHECK(static_cast<double>(bench.profiles.threshold[150]) == doctest::Approx(0.01 + 1.5 * bench[150]).epsilon(1e-4));
       CHECK(bench.profiles.threshold[400] == 0.01f);
-      // What stands out of the ground by more than 6 dB is found.
+      // What stands out of the ground by much more is found.
       both.push_back({1.5, 0.36f});
       bench.receive(both, 0, ground);
       CHECK(bench.found.size() == 2);
@@ -745,12 +745,29 @@ TEST_CASE("receiver: the velocity of a top is the mean of what is in it, by stre
   Bench bench(spec);
   bench.receive({{2.0, 0.3f, 1.0f}, {2.02, 0.1f, -3.0f}, {5.0, 1.0f, 0.5f}, {8.0, 1.0f}});
   REQUIRE(bench.found.size() == 3);
-  CHECK(static_cast<double>(bench.found[0].radial_velocity) == doctest::Approx(0.0).scale(1.0).epsilon(1e-6));
+  // Each by its power in the top's bin: exp(-(distance / deviation)^2), the pulse's deviation being 4.8 cm.
+  const auto weight = [&](double range) { return std::exp(-std::pow((bench.found[0].range - range) / 0.04829, 2)); };
+  const double near = 0.3 * weight(2.0), far = 0.1 * weight(2.02);
+  CHECK(static_cast<double>(bench.found[0].radial_velocity) == doctest::Approx((near - 3.0 * far) / (near + far)).epsilon(0.05).scale(1.0));
   CHECK(bench.found[1].radial_velocity == 0.5f);
   CHECK(bench.found[2].radial_velocity == 0.0f);
   bench.receive({{2.0, 0.3f, 1.0f}, {2.5, 10.0f, -3.0f}});  // what is far from it does not count
   REQUIRE(bench.found.size() == 2);
   CHECK(bench.found[0].radial_velocity == 1.0f);
+  // A top on the early flank of a pulse, as noise makes them, has the velocity of the pulse.
+  spec.noise = 0.01;
+  spec.threshold = 0.03;
+  Bench noisy(spec);
+  int early = 0;
+  for (std::uint64_t scan = 0; scan < 200; ++scan) {
+    noisy.receive({{4.0, 0.01f, -2.0f}}, scan);
+    for (const Echo& e : noisy.found) {
+      if (std::abs(e.range - 4.0) > 0.15) continue;
+      early += e.range < 3.93;
+      CHECK(e.radial_velocity == -2.0f);
+    }
+  }
+  CHECK(early > 5);
 }
 
 // --- the least that is detected ---
