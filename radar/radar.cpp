@@ -22,6 +22,9 @@ constexpr std::size_t rays_per_task = 256;
 /// Shorter scans stay on one core: starting the others costs more than it saves (measured, tests/bench).
 constexpr std::size_t rays_for_threads = 513;
 
+/// Rays of a row of which one is chosen: the middle one and those at its sides.
+constexpr std::size_t most_in_row = 3;
+
 /// Which of the rays of a row of a beam give what it returns.
 enum class Choice { all, drawn, incidence, strongest };
 
@@ -47,15 +50,14 @@ class Radar final : public Sensor {
   Radar(Parts parts, std::uint16_t index)
       : Sensor(parts.mounted), p_(std::move(parts)), index_(index), mount_(mount_of(p_.mounted)), received_(p_.receiver.echoes == "receiver"), printed_(p_.wave.law == "printed"),
         receiver_(p_.receiver, p_.wave, p_.mounted.range_min_m, p_.mounted.range_max_m), floor_power_(std::pow(10.0, 0.1 * p_.wave.detection_floor_db)) {
-    const std::size_t in_beam = p_.sampler.traits().size() / azimuths().size();
     double printed_sum = 0.0;
     for (const SubRay& ray : p_.sampler.antenna().rays())
       if (ray.share > 0.0) printed_sum += ray.gain / (std::cos(ray.elevation) * std::cos(ray.azimuth));
     printed_unit_ = printed_sum > 0.0 ? 1.0 / printed_sum : 0.0;  // an antenna whose gain is nothing along all its rays receives nothing
-    for (std::size_t i = 0; i < p_.sampler.traits().size(); ++i)
-      if (p_.ray_beams) nominal_.push_back(beam_along(p_.sampler.directions()[i]));
-      else if (i % in_beam == 0) nominal_.push_back(beam_towards(azimuths()[i / in_beam]));
-    if (received_ && p_.ray_beams) nominal_ = {beam_towards(0.0)};
+    if (p_.ray_beams && !received_)
+      for (const glm::dvec3& direction : p_.sampler.directions()) nominal_.push_back(beam_along(direction));
+    else
+      for (const double azimuth : azimuths()) nominal_.push_back(beam_towards(azimuth));
     weighted_ = !received_ && p_.ray_beams && std::ranges::any_of(p_.sampler.traits(), [](const RayTraits& ray) { return ray.gain != 1.0f; });
     resolution_ = p_.receiver.bandwidth_ghz > 0.0 ? 0.5 * light_speed / (1e9 * p_.receiver.bandwidth_ghz) : p_.receiver.bin_size_m;
   }
@@ -218,7 +220,7 @@ class Radar final : public Sensor {
       // The weight of a ray: how squarely it meets its first surface (one that meets none, as if squarely), or how strong its strongest echo is.
       std::size_t best = row;
       double sum = 0.0;
-      std::vector<double> weights(p_.row);
+      std::array<double, most_in_row> weights{};
       for (std::size_t i = 0; i < p_.row; ++i) {
         const auto echoes = result.echoes(row + i);
         if (p_.choice == Choice::incidence) weights[i] = echoes.empty() ? 1.0 : static_cast<double>(echoes.front().incidence_cosine);
@@ -338,7 +340,7 @@ class Radar final : public Sensor {
     Hit hit;
     context.scene.closest_hits({&down, 1}, Stops::motion, {&hit, 1});
     if (hit.solid == no_solid || !(hit.range > 0.0)) return {};
-    return {hit.range, &context.materials[context.scene.world().solids[hit.solid].material]};
+    return {hit.range, &context.materials[context.scene.material(hit.solid)]};
   }
   /// What a ray would bring back from the ground if nothing else were there; nothing from where it does not meet it.
   Return from_ground(const TraceContext& context, const Ground& ground, const Ray& ray, const RayTraits& traits) const {
@@ -389,7 +391,7 @@ Parts parts_of(const Spec& spec, std::size_t drawn_from) {
 
 std::shared_ptr<const Sensor> make_radar(const ScanningRadarSpec& spec, std::uint16_t index) {
   const Choice choice = choice_of(spec);
-  const std::size_t row = choice == Choice::all ? 1 : 3;
+  const std::size_t row = choice == Choice::all ? 1 : most_in_row;
   Parts parts = parts_of(spec, choice == Choice::drawn ? row : 1);
   parts.choice = choice;
   parts.row = choice == Choice::drawn ? 1 : row;

@@ -45,7 +45,7 @@ struct Scratch {
   std::vector<std::uint32_t> owners;  ///< of the echoes, with multipath
   std::vector<std::uint32_t> ways;    ///< that each ray has split into, with multipath
   std::vector<Leg> mirrored, legs;
-  std::vector<Ray> mirrored_rays, rays;  ///< theirs
+  std::vector<Ray> mirrored_rays, rays;  ///< theirs; rays of looks, too
   std::vector<LookBack> looks;
 };
 Scratch& scratch() {
@@ -195,13 +195,17 @@ class RayTracer {
     }
   }
 
+  Interface interface_at(const Surface& surface) const {
+    return surface.slab > 0.0 ? slab_interface(*surface.reflector, c_.radar.frequency_ghz, surface.slab, surface.cosine)
+                              : interface_between(surface.before, surface.after, *surface.reflector, surface.cosine, c_.radar.fresnel);
+  }
+
   /// A surface. False if the wave ends there.
   bool meet(const Leg& leg, const Surface& surface) {
     const WaveMaterial& reflector = *surface.reflector;
     const bool was_matter = surface.before && surface.before->visible, is_matter = surface.after && surface.after->visible;
     if (reflector.crown()) return true;  // its leaves are met inside
-    const Interface interface = surface.slab > 0.0 ? slab_interface(reflector, c_.radar.frequency_ghz, surface.slab, surface.cosine)
-                                                   : interface_between(surface.before, surface.after, reflector, surface.cosine, c_.radar.fresnel);
+    const Interface interface = interface_at(surface);
     const double spread = spread_on(leg, reflector, surface.solid, surface.range);
     if (was_matter || is_matter || (surface.slab > 0.0 && reflector.visible)) {
       const Edge edge = surface.slab > 0.0 ? Edge::thin : !was_matter ? Edge::front : is_matter ? Edge::inner : Edge::back;
@@ -351,8 +355,8 @@ class RayTracer {
   /// What is between the surfaces and the sensor takes its part of what is looked back for.
   void arrive() {
     if (s_.looks.empty()) return;
-    std::vector<Ray> rays;
-    rays.reserve(s_.looks.size());
+    std::vector<Ray>& rays = s_.rays;
+    rays.clear();
     for (const LookBack& look : s_.looks) rays.push_back(look.ray);
     traced_.count += rays.size();
     c_.scene.crossings(rays, c_.losses, c_.list_budget_db, s_.lists);
@@ -390,8 +394,7 @@ class RayTracer {
           if (way.passed == 0.0) return false;
           if (surface.reflector->crown()) return true;
           if (surface.slab > 0.0) way.excess += (surface.reflector->index - 1.0) * surface.slab_path;
-          way.passed *= surface.slab > 0.0 ? slab_interface(*surface.reflector, c_.radar.frequency_ghz, surface.slab, surface.cosine).passed
-                                           : interface_between(surface.before, surface.after, *surface.reflector, surface.cosine, c_.radar.fresnel).passed;
+          way.passed *= interface_at(surface).passed;
           return true;
         });
     return way;

@@ -8,11 +8,11 @@
 #include <limits>
 
 #include "thicket/base/pose.hpp"
+#include "wave.hpp"
 
 namespace thicket {
 namespace {
 
-constexpr double light_speed = 299792458.0;  // m/s
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Where the pulse's field ends, in its standard deviations: power is down by 80 dB.

@@ -8,7 +8,6 @@
 
 #include <glm/geometric.hpp>
 
-
 namespace thicket {
 namespace {
 
@@ -46,11 +45,14 @@ double split(const WaveMaterial& surface, double square, double mirrored) { retu
 WaveMaterial wave_material(const Material& material, const RadarSpec& radar, double floor_power) {
   WaveMaterial wave;
   wave.material = &material;
-  const bool depends = material.depends_on_frequency();
-  const double reflectivity = depends ? at_frequency(material, radar.frequency_ghz).reflectivity : material.reflectivity;
-  const double attenuation = depends ? at_frequency(material, radar.frequency_ghz).attenuation_db_per_m : material.attenuation_db_per_m;
-  wave.reflectivity = reflectivity;
-  wave.attenuation_db_per_m = wave.density = attenuation;
+  wave.reflectivity = material.reflectivity;
+  wave.attenuation_db_per_m = material.attenuation_db_per_m;
+  if (material.depends_on_frequency()) {
+    const Material there = at_frequency(material, radar.frequency_ghz);
+    wave.reflectivity = there.reflectivity;
+    wave.attenuation_db_per_m = there.attenuation_db_per_m;
+  }
+  wave.density = wave.attenuation_db_per_m;
   if (material.dielectric) {
     wave.dielectric = true;
     wave.permittivity = permittivity(*material.dielectric, radar.frequency_ghz);
@@ -63,11 +65,11 @@ WaveMaterial wave_material(const Material& material, const RadarSpec& radar, dou
   if (radar.statistical_foliage && material.leaves_per_m > 0.0 && !wave.opaque()) {
     // So that the mean of what gets through is that of even matter: a Poisson number of leaves, each of which takes the part `taken`, passes exp(-leaves taken) on average. Fewer leaves than it takes to get
     // there, each of which would have to take more than all, become as many as it takes.
-    const double even = 0.1 * std::numbers::ln10 * attenuation;
+    const double even = 0.1 * std::numbers::ln10 * wave.attenuation_db_per_m;
     wave.leaves_per_m = std::max(material.leaves_per_m, even);
     const double taken = even / wave.leaves_per_m;
     wave.leaf_loss_db = taken >= 1.0 ? infinite : -10.0 * std::log10(1.0 - taken);
-    wave.leaf_reflectivity = std::min(reflectivity, taken);
+    wave.leaf_reflectivity = std::min(wave.reflectivity, taken);
     wave.attenuation_db_per_m = 0.0;
   }
   wave.visible = wave.reflectivity > 0.0 && wave.reflectivity >= floor_power;

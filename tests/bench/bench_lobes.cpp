@@ -23,19 +23,7 @@ LobeRadarSpec x4m05() {
   return std::get<LobeRadarSpec>(read_sensor(entry, faults));
 }
 
-void scans(benchmark::State& state, const Scene& scene, const SensorSpec& spec, std::size_t threads) {
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-  const auto sensor = make_sensor(spec, 0);
-  const Random random(1, 0);
-  Scan scan;
-  std::uint64_t number = 0;
-  for (auto _ : state) {
-    sensor->measure(scene, sensor_pose, 0.0, number++, random, scan);
-    benchmark::DoNotOptimize(scan.echoes.data());
-    benchmark::ClobberMemory();
-  }
-  per_item(state, "ray", 58.0 * 58.0);
-}
+void lobe_scans(benchmark::State& state, const Scene& scene, const SensorSpec& spec, std::size_t threads) { scans(state, scene, spec, sensor_pose, threads, "ray", 58.0 * 58.0); }
 
 /// Four lobes at 0, 90, 180 and 270 degrees, each 10 times a second, as a simulation measures them.
 void four_lobes(benchmark::State& state, const World& world, LobeRadarSpec spec) {
@@ -81,10 +69,10 @@ void register_lobes() {
   everything.detection_floor_db = -300.0;
 
   measure("lobe/200 boxes, first surface/Embree triangles", [=](benchmark::State& s) { closest_bare(s, boxes, false, rays); });
-  measure("lobe/200 boxes, first surface/lobe", [=](benchmark::State& s) { scans(s, box_scene, plain, 1); });
+  measure("lobe/200 boxes, first surface/lobe", [=](benchmark::State& s) { lobe_scans(s, box_scene, plain, 1); });
   measure("lobe/80 bushes, all surfaces/Embree triangles", [=](benchmark::State& s) { surfaces_bare(s, bushes, false, rays); });
-  measure("lobe/80 bushes, all surfaces/lobe without a budget", [=](benchmark::State& s) { scans(s, bush_scene, everything, 1); });
-  measure("lobe/80 bushes, all surfaces/lobe", [=](benchmark::State& s) { scans(s, bush_scene, plain, 1); });
+  measure("lobe/80 bushes, all surfaces/lobe without a budget", [=](benchmark::State& s) { lobe_scans(s, bush_scene, everything, 1); });
+  measure("lobe/80 bushes, all surfaces/lobe", [=](benchmark::State& s) { lobe_scans(s, bush_scene, plain, 1); });
 
   LobeRadarSpec x4 = x4m05(), traced = x4;
   traced.echoes = "traced";
@@ -92,11 +80,11 @@ void register_lobes() {
   bounces.bounces_max = 3;
   for (const auto& [name, scene] : {std::pair("200 boxes", box_scene), {"80 bushes", bush_scene}}) {
     const std::string what = std::string("lobe/x4m05 among ") + name;
-    measure(what + "/rays alone", [=, s = scene](benchmark::State& state) { scans(state, s, traced, 1); });
-    measure(what + "/with its receiver", [=, s = scene](benchmark::State& state) { scans(state, s, x4, 1); });
-    measure(what + "/and three bounces", [=, s = scene](benchmark::State& state) { scans(state, s, bounces, 1); });
+    measure(what + "/rays alone", [=, s = scene](benchmark::State& state) { lobe_scans(state, s, traced, 1); });
+    measure(what + "/with its receiver", [=, s = scene](benchmark::State& state) { lobe_scans(state, s, x4, 1); });
+    measure(what + "/and three bounces", [=, s = scene](benchmark::State& state) { lobe_scans(state, s, bounces, 1); });
     for (const std::size_t threads : {1, 2})
-      measure(what + ", wall time/" + std::to_string(threads) + (threads == 1 ? " thread" : " threads"), [=, s = scene](benchmark::State& state) { scans(state, s, x4, threads); })->UseRealTime();
+      measure(what + ", wall time/" + std::to_string(threads) + (threads == 1 ? " thread" : " threads"), [=, s = scene](benchmark::State& state) { lobe_scans(state, s, x4, threads); })->UseRealTime();
   }
   measure("lobe/four x4m05 at 10 Hz/200 boxes", [=](benchmark::State& s) { four_lobes(s, boxes, x4); })->UseRealTime();
   measure("lobe/four x4m05 at 10 Hz/80 bushes", [=](benchmark::State& s) { four_lobes(s, bushes, x4); })->UseRealTime();

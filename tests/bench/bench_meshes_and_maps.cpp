@@ -1,6 +1,4 @@
 // What a world costs before the first ray, and what meshes, movers and large maps cost afterwards.
-#include <tbb/global_control.h>
-
 #include <chrono>
 #include <ctime>
 #include <filesystem>
@@ -224,16 +222,7 @@ void trace_lobe(benchmark::State& state, const Late<Scene>& scene) {
   LobeRadarSpec spec;
   spec.position_m = {0.0, 0.0, sensor_height};
   spec.range_max_m = 30.0;
-  const auto sensor = make_sensor(spec, 0);
-  const Random random(1, 0);
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  Scan scan;
-  sensor->measure(*scene, Pose{}, 0.0, 0, random, scan);
-  for (auto _ : state) {
-    sensor->measure(*scene, Pose{}, 0.0, 0, random, scan);
-    benchmark::DoNotOptimize(scan.echoes.data());
-  }
-  per_item(state, "ray", 58.0 * 58.0);
+  scans(state, *scene, spec, Pose{}, 1, "ray", 58.0 * 58.0);
 }
 
 void register_rays() {

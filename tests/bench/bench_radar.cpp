@@ -1,6 +1,4 @@
 // Whole scans, and what they cost on top of the tracing.
-#include <tbb/global_control.h>
-
 #include "bench_worlds.hpp"
 #include "receiver.hpp"
 
@@ -11,20 +9,6 @@ constexpr const char* divided_room = "worlds/data/foliage_wall/divided_room.toml
 
 /// Where the mission map_radar passes the middle of the foliage wall.
 const Pose vehicle = Pose::planar(-3.0, 0.3, 0.0, 0.4);
-
-void scans(benchmark::State& state, const Scene& scene, const SensorSpec& spec, std::size_t threads) {
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-  const auto sensor = make_sensor(spec, 0);
-  const Random random(1, 0);
-  Scan scan;
-  std::uint64_t number = 0;
-  for (auto _ : state) {
-    sensor->measure(scene, vehicle, 0.0, number++, random, scan);
-    benchmark::DoNotOptimize(scan.echoes.data());
-    benchmark::ClobberMemory();
-  }
-  per_item(state, "beam", static_cast<double>(scan.beams.size()));
-}
 
 /// The scene's part of the same scan.
 void tracing(benchmark::State& state, const Scene& scene, const ScanningRadarSpec& spec) {
@@ -81,16 +65,16 @@ void register_radar() {
   LidarSpec lidar;
   lidar.position_m.z = 0.4;
   measure("radar/scan of 360/tracing alone", [=](benchmark::State& s) { tracing(s, scene, radar); });
-  measure("radar/scan of 360/radar", [=](benchmark::State& s) { scans(s, scene, radar, 1); });
-  measure("radar/scan of 360/radar, side rays", [=](benchmark::State& s) { scans(s, scene, side_rays, 1); });
-  measure("radar/scan of 360/radar, range noise", [=](benchmark::State& s) { scans(s, scene, noisy, 1); });
-  measure("radar/scan of 360/lidar", [=](benchmark::State& s) { scans(s, scene, lidar, 1); });
+  measure("radar/scan of 360/radar", [=](benchmark::State& s) { scans(s, scene, radar, vehicle, 1, "beam", 360.0); });
+  measure("radar/scan of 360/radar, side rays", [=](benchmark::State& s) { scans(s, scene, side_rays, vehicle, 1, "beam", 360.0); });
+  measure("radar/scan of 360/radar, range noise", [=](benchmark::State& s) { scans(s, scene, noisy, vehicle, 1, "beam", 360.0); });
+  measure("radar/scan of 360/lidar", [=](benchmark::State& s) { scans(s, scene, lidar, vehicle, 1, "beam", 360.0); });
   ScanningRadarSpec fine = radar;
   fine.step_deg = 0.1;
   // Wall time: that is what the second thread is for.
   for (const std::size_t threads : {1, 2})
     measure("radar/scan of 3600, wall time/" + std::to_string(threads) + (threads == 1 ? " thread" : " threads"),
-            [=](benchmark::State& s) { scans(s, scene, fine, threads); })
+            [=](benchmark::State& s) { scans(s, scene, fine, vehicle, threads, "beam", 3600.0); })
         ->UseRealTime();
   ReceiverSpec quiet;
   quiet.noise = 0.0;

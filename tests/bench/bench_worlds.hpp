@@ -2,6 +2,7 @@
 #pragma once
 
 #include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
 
 #include <cmath>
 #include <cstdint>
@@ -199,6 +200,21 @@ inline std::vector<Ray> circle() {
     rays.push_back({{0.0, 0.0, sensor_height}, {std::cos(azimuth), std::sin(azimuth), 0.0}, infinity});
   }
   return rays;
+}
+
+/// Scans of a sensor from a platform that stands still, one after another, on so many threads; stated per item, of which a scan has `items`.
+inline void scans(benchmark::State& state, const Scene& scene, const SensorSpec& spec, const Pose& from, std::size_t threads, const std::string& item, double items) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+  const auto sensor = make_sensor(spec, 0);
+  const Random random(1, 0);
+  Scan scan;
+  std::uint64_t number = 0;
+  for (auto _ : state) {
+    sensor->measure(scene, from, 0.0, number++, random, scan);
+    benchmark::DoNotOptimize(scan.echoes.data());
+    benchmark::ClobberMemory();
+  }
+  per_item(state, item, items);
 }
 
 /// What was built or read, or the end of the program with the message of what went wrong.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "finished.hpp"
 #include "temporary_folder.hpp"
 #include "thicket/sim/outputs.hpp"
 #include "thicket/sim/simulation.hpp"
@@ -35,14 +36,6 @@ clearance_m = 0.3
   auto mission = read_mission(file, overrides);
   if (!mission) FAIL(mission.error().message);
   return *mission;
-}
-
-Simulation finished(const Mission& mission) {
-  auto simulation = Simulation::create(mission);
-  if (!simulation) FAIL(simulation.error().message);
-  while (simulation->step()) {
-  }
-  return *simulation;
 }
 
 std::string map_of(const Simulation& simulation) {

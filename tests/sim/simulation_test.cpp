@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "finished.hpp"
 #include "outside_data.hpp"
 #include "temporary_folder.hpp"
 #include "thicket/base/files.hpp"
@@ -18,14 +19,6 @@ Mission shipped(const char* name, const std::vector<Override>& overrides = {}) {
   auto mission = read_mission(find_input(name), overrides);
   if (!mission) FAIL(mission.error().message);
   return *mission;
-}
-
-Simulation finished(const Mission& mission) {
-  auto simulation = Simulation::create(mission);
-  if (!simulation) FAIL(simulation.error().message);
-  while (simulation->step()) {
-  }
-  return *simulation;
 }
 
 std::string verdict(const Simulation& simulation) { return to_string(simulation.verdict()->kind); }
