@@ -5,7 +5,7 @@
 namespace thicket {
 
 namespace {
-/// As often the walk may stray from the boundary that was hit before the planner says so instead of trying again.
+/// As often a boundary may turn out not to be the one that was hit before the planner says so instead of trying again.
 constexpr int most_strays = 10;
 }  // namespace
 
@@ -25,11 +25,7 @@ Decision Bug::decide(const Senses& senses) {
     on_hit();
   }
   walk_.advance(pilot_.pose());
-  if (walk_.strayed() && !walk_.closed()) {
-    if (++strays_ > most_strays)
-      return {{}, Outcome::stuck, "lost the boundary", fmt::format("{} times the boundary that was followed did not lead back to where it was hit", strays_)};
-    return leave();
-  }
+  if (walk_.strayed() && !walk_.closed()) return lost("the boundary that was followed did not lead back to where it was hit");
   return on_boundary();
 }
 
@@ -39,6 +35,11 @@ bool Bug::leads_away() {
   if (!pilot_.blocked_by_other(goal_) || distance_to_goal() > left_for_other_ - pilot_.same_place()) return false;
   left_for_other_ = distance_to_goal();
   return true;
+}
+
+Decision Bug::lost(const char* how) {
+  if (++strays_ > most_strays) return {{}, Outcome::stuck, "lost the boundary", fmt::format("{} times {}", strays_, how)};
+  return leave();
 }
 
 Decision Bug::follow(const char* state) {

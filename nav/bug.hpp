@@ -27,6 +27,8 @@ class Bug : public Planner {
   bool leads_away();
   Decision follow(const char* state);
   Decision leave();
+  /// The boundary is not what it was taken for: starts anew from here, but not for ever.
+  Decision lost(const char* how);
   Decision unreachable(const std::string& why) const;
 
   Pilot& pilot() { return pilot_; }

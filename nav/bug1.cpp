@@ -22,22 +22,20 @@ class Bug1 final : public Bug {
       start_return();
     }
     // L is reached where the distance to it is least; the tracks of two walks along the same boundary are a little apart.
-    const double away = pilot().distance_to(closest_);
-    const double walked = walk().length() - length_at_return_;
-    const bool due = walked >= expected_ - slack_;
-    const bool going_by = due && was_due_ && away > last_away_ && away < 4.0 * pilot().same_place();
-    was_due_ = due;
+    const double away = pilot().distance_to(closest_), walked = walk().length() - length_at_return_;
+    const bool here = away <= pilot().same_place() || (away > last_away_ && last_away_ < 4.0 * pilot().same_place());
     last_away_ = away;
-    const bool here = due && (going_by || away <= pilot().same_place());
     if (here && leads_away()) return leave();
-    if (going_by || walked > expected_ + 2.0 * slack_)
+    // Where the boundary's two sides are near together L may be near before it is reached.
+    if (here && walked >= expected_ - slack_)
       return unreachable("the whole boundary was walked, and at its point closest to the goal the way to the goal leads into the obstacle");
+    if (walked > 2.0 * walk().loop_length() + slack_) return lost("the point closest to the goal was not met again");
     return follow("returning to the point closest to the goal");
   }
 
   void start_return() {
     returning_ = true;
-    was_due_ = false;
+    last_away_ = 0.0;
     closest_ = walk().closest();
     mark("closest", closest_);
     length_at_return_ = walk().length();
@@ -47,7 +45,7 @@ class Bug1 final : public Bug {
     slack_ = 4.0 * pilot().same_place() + 0.1 * expected_;
   }
 
-  bool returning_ = false, was_due_ = false;
+  bool returning_ = false;
   glm::dvec2 closest_{0.0, 0.0};
   double length_at_return_ = 0.0, expected_ = 0.0, slack_ = 0.0, last_away_ = 0.0;
 };

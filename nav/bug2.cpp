@@ -17,28 +17,23 @@ class Bug2 final : public Bug {
 
  private:
   Decision on_boundary() override {
-    if (walk().armed()) {
-      const auto crossing = crosses_m_line();
-      const double hit_distance = glm::distance(walk().hit(), goal());
-      if (crossing && glm::distance(*crossing, goal()) < hit_distance - pilot().same_place() && leads_away()) return leave();
-    }
+    if (may_leave()) return leave();
     if (walk().closed()) return unreachable("the hit point was met again without a crossing of the M-line to leave at");
     return follow("following the boundary");
   }
 
-  /// Where the last step crossed the M-line between the hit point and the goal (what lies before the hit point is farther from the goal than it and cannot count): by
-  /// a change of side, so that neither a step across nor a steep line is missed. Taken from the hit point, not from the start: a robot that leaves a boundary
-  /// swings off the line a little, and a boundary that it meets beside the line need not cross it again.
-  std::optional<glm::dvec2> crosses_m_line() const {
+  /// On the M-line between the hit point and the goal, nearer to the goal than the hit point, and the way is open. The line is taken from the hit point, not from the start: a robot that leaves a boundary
+  /// swings off the line a little, and a boundary that it meets beside the line need not cross it again. On it: by a change of side, so that neither a step across nor a steep line is
+  /// missed; or close beside it, for a boundary that the line only touches is not crossed at all.
+  bool may_leave() {
     const glm::dvec2& from = walk().hit();
     const glm::dvec2 line = goal() - from;
-    const auto side = [&](const glm::dvec2& p) { return line.x * (p.y - from.y) - line.y * (p.x - from.x); };
+    const double length = glm::length(line);
+    const auto side = [&](const glm::dvec2& p) { return (line.x * (p.y - from.y) - line.y * (p.x - from.x)) / length; };
     const double before = side(walk().previous()), after = side(walk().current());
-    if ((before > 0.0) == (after > 0.0)) return std::nullopt;
-    const glm::dvec2 at = glm::mix(walk().previous(), walk().current(), before / (before - after));
-    const double along = glm::dot(at - from, line) / glm::dot(line, line);
-    if (along <= 0.0 || along >= 1.0) return std::nullopt;
-    return at;
+    if ((before > 0.0) == (after > 0.0) && std::abs(after) > 0.5 * pilot().same_place()) return false;
+    const double along = glm::dot(walk().current() - from, line) / length;
+    return along > 0.0 && distance_to_goal() < length - pilot().same_place() && leads_away();
   }
 };
 

@@ -4,6 +4,10 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <cstdio>
+#include <cstdlib>
+static thread_local double dbg_time_ = 0;
+
 
 namespace thicket {
 
@@ -15,6 +19,8 @@ VehicleLimits vehicle_for_steering(VehicleLimits vehicle) {
   return vehicle;
 }
 
+constexpr double sharp = radians(45.0);  // an inner corner of the boundary that is turned in on the spot
+
 }  // namespace
 
 Pilot::Pilot(const PlannerSpec& spec, const VehicleLimits& vehicle)
@@ -24,95 +30,183 @@ Pilot::Pilot(const PlannerSpec& spec, const VehicleLimits& vehicle)
       look_ahead_(std::clamp(0.4 * keep_, 0.06, 0.6)),
       // The boundary is steered along by looking ahead: a robot that covers this distance faster than it can decide and turn swings from side to side. A turn by
       // 20 degrees takes 2 sqrt(0.35 / turn acceleration).
-      following_speed_(look_ahead_ / (2.5 * vehicle_.decision_period + 1.2 * std::sqrt(0.35 / vehicle.turn_acceleration))),
+      turn_time_(2.5 * vehicle_.decision_period + 1.2 * std::sqrt(0.35 / vehicle.turn_acceleration)),
       same_place_(std::max(0.06, 0.12 * keep_)),
       speed_(std::min(vehicle.speed, spec.speed_m_s.value_or(vehicle.speed))),
-      goal_tolerance_(spec.goal_tolerance_m) {}
+      goal_tolerance_(spec.goal_tolerance_m),
+      surroundings_(keep_) {
+  horizon_ = std::max(2.0 * look_ahead_, 0.5 * speed_ * speed_ / vehicle.deceleration + look_ahead_);
+}
 
 void Pilot::look(const Senses& senses) {
   pose_ = senses.pose;
+  dbg_time_ = senses.time;
   speed_now_ = senses.speed;
   turn_rate_ = senses.turn_rate;
-  contour_.clear();
   // The bumpers decide whether there is anything to steer around at all; only then the rays of the scan are looked at one by one.
-  if (!senses.bumpers.any_pressed()) return;
-  const double reach = std::max(keep_ + look_ahead_, vehicle_.hull_radius + senses.bumpers.press_distance());
-  for (const ContourPoint& point : senses.contour)
-    if (point.distance <= reach) contour_.push_back(point);
+  surroundings_.look(senses, std::max(keep_ + look_ahead_, vehicle_.hull_radius + senses.bumpers.press_distance()));
+  discs_ = surroundings_.discs();
+  nearest_ = INFINITY;
+  for (const Disc& disc : discs_)
+    if (disc.radius > 0.5 * keep_) nearest_ = std::min(nearest_, glm::distance(disc.centre, pose_.position));
 }
 
 double Pilot::distance_to(const glm::dvec2& point) const { return glm::distance(pose_.position, point); }
 
-Steering::Way Pilot::way_to(const glm::dvec2& point) const {
-  const Steering steering(contour_, keep_, look_ahead_);
-  return steering.free_way(bearing(pose_.to_inner(point)), keep_ - gap_, distance_to(point));
+Pilot::Way Pilot::free_way(double heading, double shrink, double limit) const {
+  Way way{limit, none};
+  const glm::dvec2 ahead = direction(pose_.yaw + heading);
+  for (std::size_t i = 0; i < discs_.size(); ++i) {
+    const glm::dvec2 to = discs_[i].centre - pose_.position;
+    const double radius = discs_[i].radius - shrink, along = glm::dot(to, ahead), across = to.x * ahead.y - to.y * ahead.x;
+    if (along <= 0.0 || std::abs(across) >= radius) continue;
+    const double square = radius * radius - across * across;
+    const double distance = std::max(0.0, along - std::sqrt(square));
+    if (distance < way.distance) way = {distance, i};
+  }
+  return way;
 }
+
+Pilot::Way Pilot::way_out(double heading, double shrink, double limit) const {
+  Way way{limit, none};
+  const glm::dvec2 ahead = direction(pose_.yaw + heading);
+  const double margin = 0.5 * gap_, most = nearest_ - margin;
+  for (std::size_t i = 0; i < discs_.size(); ++i) {
+    const glm::dvec2 to = discs_[i].centre - pose_.position;
+    const double radius = std::min({discs_[i].radius - shrink, most, glm::length(to) - margin}), along = glm::dot(to, ahead), across = to.x * ahead.y - to.y * ahead.x;
+    if (along <= 0.0 || std::abs(across) >= radius) continue;
+    const double distance = std::max(0.0, along - std::sqrt(radius * radius - across * across) - 2.0 * margin);
+    if (distance < way.distance) way = {distance, i};
+  }
+  return way;
+}
+
+Pilot::Way Pilot::way_to(const glm::dvec2& point) const { return free_way(bearing(pose_.to_inner(point)), gap_, distance_to(point)); }
 
 bool Pilot::blocked_toward(const glm::dvec2& point) const {
   const auto way = way_to(point);
-  return way.point && way.distance < gap_;
+  return way.disc != none && way.distance < gap_;
 }
 
 bool Pilot::open_toward(const glm::dvec2& point) const {
   const auto way = way_to(point);
-  return !way.point || way.distance > 2.0 * gap_ + 0.5 * look_ahead_;
+  return way.disc == none || way.distance > 2.0 * gap_ + 0.5 * look_ahead_;
 }
 
 bool Pilot::blocked_by_other(const glm::dvec2& point) const {
   const auto way = way_to(point);
-  if (!way.point) return false;
-  const double apart = wrap_angle(contour_[*way.point].bearing - bearing(pose_.to_inner(contact_)));
-  return std::abs(apart) > 0.5 * pi;
+  if (way.disc == none) return false;
+  // Grown obstacles that touch are one: from the disc under the hand to all that it hangs together with.
+  std::vector<std::size_t> open;
+  std::vector<bool> known(discs_.size());
+  std::size_t first = 0;
+  for (std::size_t i = 1; i < discs_.size(); ++i)
+    if (glm::distance(discs_[i].centre, contact_) < glm::distance(discs_[first].centre, contact_)) first = i;
+  open.push_back(first);
+  known[first] = true;
+  while (!open.empty()) {
+    const std::size_t i = open.back();
+    open.pop_back();
+    if (i == way.disc) return false;
+    for (std::size_t j = 0; j < discs_.size(); ++j)
+      if (!known[j] && glm::distance(discs_[i].centre, discs_[j].centre) < discs_[i].radius + discs_[j].radius) {
+        known[j] = true;
+        open.push_back(j);
+      }
+  }
+  return true;
 }
 
 Command Pilot::go_to(const glm::dvec2& point) const { return drive(bearing(pose_.to_inner(point)), way_to(point).distance); }
 
 void Pilot::touch_wall_toward(const glm::dvec2& point) {
   const auto way = way_to(point);
-  contact_ = way.point ? pose_.to_outer(contour_[*way.point].position) : point;
+  contact_ = way.disc != none ? discs_[way.disc].centre : point;
+}
+
+bool Pilot::roll_on(Hand hand) {
+  const int turn = hand == Hand::left ? +1 : -1;
+  if (roll(discs_, contact_, pose_.position, turn, 0.35 * keep_, horizon_ + 0.5 * look_ahead_, path_)) return true;
+  // Matter nearer than it should be on all sides, as at a start in a narrow place: then the way out is along the distance that there is.
+  for (Disc& disc : discs_) disc.radius = std::min(disc.radius, glm::distance(disc.centre, pose_.position) - 1e-3);
+  return roll(discs_, contact_, pose_.position, turn, 0.35 * keep_, horizon_ + 0.5 * look_ahead_, path_);
 }
 
 Command Pilot::follow(Hand hand) {
-  // With the wall on the left hand the robot turns right, away from it, until a heading is open; the heading next to the wall is the boundary's.
-  const int turn = hand == Hand::left ? -1 : +1;
-  const double to_contact = bearing(pose_.to_inner(contact_));
-  double keep = keep_;
-  auto edge = Steering(contour_, keep, look_ahead_).sweep(to_contact, turn);
-  if (!edge) {
-    // Swung a little too deep into a corner, with matter nearer than the clearance on several sides: find the way out along the distance that there is.
-    for (const ContourPoint& point : contour_) keep = std::min(keep, point.distance);
-    if (keep > keep_ - 10.0 * gap_) edge = Steering(contour_, keep, look_ahead_).sweep(to_contact, turn);
-  }
-  boxed_in_ = !edge;
-  if (!edge) return {};
-  double heading = edge->heading;
-  if (edge->point) {
-    const ContourPoint& point = contour_[*edge->point];
-    contact_ = pose_.to_outer(point.position);
-    // The open heading next to the wall points at the grown wall's tangent; come down to it gently, in proportion to the distance from it, or the robot swings.
-    const double off = point.distance - keep;
-    if (off > 0.0) {
-      const double steep = 0.5 * pi - std::abs(wrap_angle(point.bearing - heading)), gentle = off / look_ahead_;
-      heading += turn * std::clamp(steep - gentle, 0.0, 0.5 * edge->open);
+  boxed_in_ = !roll_on(hand);
+  if (boxed_in_) return {};
+  const auto& points = path_.points;
+  // Where on it the robot is: the first place that the boundary, walked from behind, is near. (The other side of a dead end may be as near.)
+  std::size_t here = 0;
+  double least = glm::distance(points[0].position, pose_.position);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double away = glm::distance(points[i].position, pose_.position);
+    if (away < least) {
+      least = away;
+      here = i;
+    } else if (away > least + 0.25 * look_ahead_) {
+      break;
     }
   }
+  contact_ = discs_[points[here].disc].centre;
+
+  // Where to: as far on as the boundary is straight, no farther than the next sharp inner corner, past that once it is reached.
+  const double start = points[here].along;
+  double stop = INFINITY;
+  std::size_t target = here;
+  const auto way_of = [&](std::size_t i) { return points[i].position - discs_[points[i].disc].centre; };  // outward; the boundary's way is at right angles to it
+  const glm::dvec2 outward = way_of(here);
+  for (std::size_t i = here; i < points.size(); ++i) {
+    const double ahead = points[i].along - start;
+    if (points[i].corner && i + 1 < points.size()) {
+      const Disc &from = discs_[points[i].disc], &to = discs_[points[i + 1].disc];
+      if (ahead < 0.5 * look_ahead_) surroundings_.shut(from, to);
+      const glm::dvec2 before = points[i].position - from.centre, after = points[i].position - to.centre;
+      const double corner = std::acos(std::clamp(glm::dot(before, after) / (glm::length(before) * glm::length(after)), -1.0, 1.0));
+      if (corner > sharp && glm::distance(points[i].position, pose_.position) > 0.25 * look_ahead_) {
+        stop = std::max(0.0, ahead);
+        if (ahead <= look_ahead_ || target == i - 1) target = i;
+        break;
+      }
+    }
+    if (ahead <= look_ahead_) {
+      target = i;
+      continue;
+    }
+    const glm::dvec2 there = way_of(i);
+    const bool straight = glm::dot(outward, there) > 0.985 * glm::length(outward) * glm::length(there);
+    if (straight && target + 1 == i && ahead < horizon_) target = i;
+  }
+  // Around a corner the robot, which heads for a place ahead on the arc, would run inside of it.
+  const glm::dvec2 there = way_of(target);
+  const double bend = (hand == Hand::left ? 1.0 : -1.0) * std::atan2(outward.x * there.y - outward.y * there.x, glm::dot(outward, there));
+  const double ahead_of_here = std::min(look_ahead_, points[target].along - start);
+  const glm::dvec2 aim = points[target].position + glm::normalize(there) * (0.25 * std::clamp(bend, 0.0, 0.6) * ahead_of_here);
+  double heading = bearing(pose_.to_inner(aim));
   // In a dead end both ways round are about as short, but only one is the boundary's own: the walk counts its turns.
-  heading = wrap_angle(heading);
-  if (turn * heading < -radians(120.0)) heading += turn * 2.0 * pi;
+  const int away = hand == Hand::left ? -1 : +1;
+  if (away * heading < -radians(120.0)) heading += away * 2.0 * pi;
+  const double reach = std::max(look_ahead_, points[target].along - start);
   const double limit = speed_ * speed_ / vehicle_.deceleration + 1.0;
-  Command command = drive(heading, Steering(contour_, keep, look_ahead_).free_way(heading, keep - 2.0 * gap_, limit).distance);
-  command.speed = std::min(command.speed, following_speed_);
+  if (getenv("DBG") && std::abs(atof(getenv("DBG")) - dbg_time_) < 0.06) {
+    printf("t %.2f pose %.3f %.3f %.3f here %zu least %.3f target %zu stop %.3f heading %.3f wayout %.3f ahead %.3f contact %.3f %.3f\n", dbg_time_, pose_.position.x, pose_.position.y, pose_.yaw, here, least, target, stop, heading, way_out(wrap_angle(heading), 2.0 * gap_, limit).distance, way_out(0.0, 4.0 * gap_, 3.0).distance, contact_.x, contact_.y);
+    for (auto& q : points) printf("  path %.3f %.3f disc %zu along %.3f %s\n", q.position.x, q.position.y, q.disc, q.along, q.corner ? "corner" : "");
+    for (auto& d : discs_) printf("  disc %.3f %.3f r %.3f d %.3f b %.2f\n", d.centre.x, d.centre.y, d.radius, glm::distance(d.centre, pose_.position), bearing(pose_.to_inner(d.centre)));
+  }
+  Command command = drive(heading, std::min(stop + 0.5 * gap_, way_out(wrap_angle(heading), 2.0 * gap_, limit).distance));
+  command.speed = std::min(command.speed, reach / turn_time_);
   return command;
 }
 
 Command Pilot::drive(double heading, double way) const {
   // Turn: as fast as can be braked before the heading is reached, the delay of one decision included.
   const double error = heading, size = std::abs(error);
-  const double rate = std::min({vehicle_.turn_rate, 0.8 * std::sqrt(2.0 * vehicle_.turn_acceleration * size), size / (2.0 * vehicle_.decision_period)});
+  double rate = std::min({vehicle_.turn_rate, 0.8 * std::sqrt(2.0 * vehicle_.turn_acceleration * size), size / (2.0 * vehicle_.decision_period)});
   // Forward: nothing before the robot faces within 60 degrees of its way; never faster than it can brake, on its way and on the heading it has now.
   const double facing = size < 0.5 * pi ? std::max(0.0, 2.0 * std::cos(error) - 1.0) : 0.0;
-  const Steering steering(contour_, keep_, look_ahead_);
-  const double ahead = steering.free_way(0.0, keep_ - 4.0 * gap_, way + 1.0).distance;
+  // Turning round, first stop: the arc of a robot that is still rolling leads to where nobody has looked.
+  if (facing == 0.0) rate *= std::clamp(1.0 - (speed_now_ - 0.2 * look_ahead_) / (0.4 * look_ahead_), 0.0, 1.0);
+  const double ahead = way_out(0.0, 4.0 * gap_, way + 1.0).distance;
   const auto braking_speed = [&](double distance) {
     const double left = std::max(0.0, distance - speed_now_ * vehicle_.decision_period);
     return std::max(std::sqrt(2.0 * vehicle_.deceleration * left), std::min(distance, gap_) / (2.0 * vehicle_.decision_period));

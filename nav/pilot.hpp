@@ -3,8 +3,9 @@
 
 #include <glm/vec2.hpp>
 
+#include "rolling.hpp"
+#include "surroundings.hpp"
 #include "thicket/nav/planner.hpp"
-#include "thicket/nav/steering.hpp"
 
 namespace thicket {
 
@@ -27,7 +28,7 @@ class Pilot {
   bool blocked_toward(const glm::dvec2& point) const;
   /// The straight way is open for more than a moment. (Neither blocked nor open: too close to call; planners go on with what they do.)
   bool open_toward(const glm::dvec2& point) const;
-  /// While following: what blocks the straight way is not the wall under the hand but something on the other side of the robot, as in a gap just as wide as it needs.
+  /// While following: what blocks the straight way is another obstacle than the one under the hand, as in a gap just as wide as the robot needs.
   bool blocked_by_other(const glm::dvec2& point) const;
   /// Drives straight toward a point and brakes for it and for what stands before it.
   Command go_to(const glm::dvec2& point) const;
@@ -36,7 +37,7 @@ class Pilot {
   void touch_wall_toward(const glm::dvec2& point);
   /// Follows the boundary of the grown obstacle under the hand.
   Command follow(Hand hand);
-  /// While following: no heading is open at all.
+  /// While following: there is no place to go at all.
   bool boxed_in() const { return boxed_in_; }
 
   /// Two positions count as the same place within this, m.
@@ -45,7 +46,17 @@ class Pilot {
   double keep() const { return keep_; }
 
  private:
-  Steering::Way way_to(const glm::dvec2& point) const;
+  /// How far the axis can go along a heading, up to `limit`, until it enters a disc made smaller by `shrink`, and which; a disc that it is in already stops whatever goes toward its middle.
+  struct Way {
+    double distance = 0.0;
+    std::size_t disc = none;
+  };
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  Way free_way(double heading, double shrink, double limit) const;
+  /// The same for discs that are nowhere larger than the distance that the robot has now: what brakes a robot that came too near must not keep it there.
+  Way way_out(double heading, double shrink, double limit) const;
+  Way way_to(const glm::dvec2& point) const;
+  bool roll_on(Hand hand);
   /// `heading` beyond +-pi turns the long way round.
   Command drive(double heading, double way) const;
 
@@ -53,16 +64,19 @@ class Pilot {
   double keep_;        ///< hull radius + clearance: distance of the axis from matter
   double gap_;         ///< a way shorter than this is no way
   double look_ahead_;  ///< m
-  double following_speed_;
+  double horizon_;     ///< m of boundary that are looked at ahead
+  double turn_time_;   ///< s that a small change of heading takes
   double same_place_;
   double speed_;
   double goal_tolerance_;
   bool boxed_in_ = false;
-  glm::dvec2 contact_{0.0, 0.0};  ///< the point of the wall that the hand is on, world
+  glm::dvec2 contact_{0.0, 0.0};  ///< the matter that the hand is on
 
   Pose2 pose_;
-  double turn_rate_ = 0.0, speed_now_ = 0.0;
-  Contour contour_;  ///< the part that matters now
+  double turn_rate_ = 0.0, speed_now_ = 0.0, nearest_ = 0.0;
+  Surroundings surroundings_;
+  std::vector<Disc> discs_;  ///< as now, in the frame of the pose
+  BoundaryPath path_;
 };
 
 }  // namespace thicket
