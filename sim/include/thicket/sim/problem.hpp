@@ -50,6 +50,11 @@ const std::string& family_in_words(const std::string& family);
 /// nearest known one), a robot whose size is not finite or not greater than 0.
 Result<Problem> make_problem(const std::string& family, std::uint64_t number, const Robot& robot);
 
+/// What a problem of the family "twins" is to the one before it: numbers 2k and 2k + 1 are a pair, the same problem of another family and its twin. Mirrored: y has become
+/// -y, so that the twin's left hand does what the first one's right hand does. Turned: about the origin, by any angle. Moved: by up to 1000 m along each axis.
+enum class TwinChange : std::uint8_t { none, mirrored, turned, moved };
+TwinChange twin_change(std::uint64_t number);  ///< none of an even number
+
 /// By how much the growth of obstacles is in doubt, m: a verdict that changes within it is ambiguous. A tenth of the clearance, a cell of the oracle (0.05 m), and
 /// three standard deviations of range noise (0.03 m).
 double problem_doubt(const Robot& robot);
