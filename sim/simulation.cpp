@@ -61,11 +61,15 @@ Result<Simulation> Simulation::create(const Mission& mission) {
 Result<Simulation> Simulation::create(const Mission& mission, World world) {
   auto scene = Scene::build(std::move(world));
   if (!scene) return scene.error();
+  return create(mission, std::move(*scene));
+}
+
+Result<Simulation> Simulation::create(const Mission& mission, Scene scene) {
   std::vector<std::shared_ptr<const Sensor>> sensors;
   for (const SensorSpec& spec : mission.sensors) sensors.push_back(make_sensor(spec, static_cast<std::uint16_t>(sensors.size())));
   auto planner = make_planner(mission.planner, vehicle_limits(mission), start_pose(mission));
   if (!planner) return planner.error();
-  return Simulation(std::make_shared<const Stage>(Stage{mission, std::move(*scene), std::move(sensors)}), std::move(*planner));
+  return Simulation(std::make_shared<const Stage>(Stage{mission, std::move(scene), std::move(sensors)}), std::move(*planner));
 }
 
 Simulation::Simulation(std::shared_ptr<const Stage> stage, std::unique_ptr<Planner> planner)

@@ -163,6 +163,25 @@ Material read_material(const std::string& name, const Node& table, const std::ve
   return material;
 }
 
+std::string write_material(const Material& material) {
+  MaterialKeys keys;
+  keys.material = material;
+  if (const auto& d = material.dielectric) {
+    keys.permittivity = d->a;
+    keys.permittivity_exponent = d->b;
+    keys.conductivity = d->c;
+    keys.conductivity_exponent = d->d;
+  }
+  std::string text;
+  for (const Key& key : material_section().keys) {
+    const bool follows = key.name == "reflectivity" || key.name == "attenuation_db_per_m" || key.name == "attenuation_exponent";  // from a permittivity
+    const Value value = key.get(&keys);
+    if (std::holds_alternative<std::monostate>(value) || (follows && material.dielectric)) continue;
+    text += fmt::format("{} = {}\n", key.name, to_toml(value));
+  }
+  return text;
+}
+
 const Material* find_material(const std::vector<Material>& materials, const std::string& name) {
   const auto found = std::find_if(materials.begin(), materials.end(), [&name](const Material& m) { return m.name == name; });
   return found == materials.end() ? nullptr : &*found;

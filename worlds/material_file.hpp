@@ -12,6 +12,9 @@ namespace thicket {
 /// Reads a table [material.NAME]. A `preset` in it names one of `presets`, whose numbers then stand wherever the table has none.
 Material read_material(const std::string& name, const Node& table, const std::vector<Material>& presets, Faults& faults);
 
+/// The keys of a table that `read_material` reads as the same material, a line each.
+std::string write_material(const Material& material);
+
 /// The material of that name, or nothing.
 const Material* find_material(const std::vector<Material>& materials, const std::string& name);
 std::vector<std::string> names_of(const std::vector<Material>& materials);

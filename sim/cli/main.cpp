@@ -136,6 +136,35 @@ void add_scan(CLI::App& app, ScanArguments& a) {
   app.add_option("--map-image", a.map_image, "for a map_server world: an image instead of the one that it names")->type_name("FILE");
 }
 
+void add_reachability(CLI::App& app, ReachabilityArguments& a) {
+  app.add_option("--families", a.families, "families of generated problems (default: all ten)")->delimiter(',')->type_name("A,B,...");
+  app.add_option("--problems", a.problems, "problems of each family")->check(CLI::Range(1, 10000000))->capture_default_str()->type_name("N");
+  app.add_option("--first", a.first, "number of the first problem of each family")->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 52))->capture_default_str()->type_name("N");
+  CLI::Option* rooms = app.add_option("--rooms", a.rooms, "so many rooms of 14 x 14 m as McGuire et al. 2019 generate them, corner to corner")->check(CLI::Range(1, 10000000))->type_name("N");
+  CLI::Option* maps = app.add_option("--maps", a.maps, "a map or world, or a folder of them: map_server, MovingAI (with its .scen), TOML")->type_name("PATH")->excludes(rooms);
+  app.add_option("--per-map", a.per_map, "problems of each map")->check(CLI::Range(1, 10000000))->capture_default_str()->type_name("N");
+  app.add_option("--cell-size", a.cell_size, "of MovingAI maps, metres a cell; 1 if it is not given")->check(CLI::PositiveNumber)->type_name("M");
+  CLI::Option* world = app.add_option("--world", a.world, "one problem: the world, with --start and --goal")->type_name("FILE")->excludes(rooms)->excludes(maps);
+  app.add_option("--start", a.start, "metres and degrees")->type_name("X,Y[,YAW_DEG]")->needs(world);
+  app.add_option("--goal", a.goal, "metres")->type_name("X,Y")->needs(world);
+  app.add_option("--planners", a.planners, "planners to run (default: bug1,bug2,tangent_bug)")->delimiter(',')->type_name("A,B,...");
+  app.add_option("--hand", a.hand, "on the wall: left, right, both, or alternate: left for problems of an even number, right for others")->capture_default_str();
+  app.add_option("--vehicle", a.vehicle, "vehicle preset or file (default: a P3-AT of 0.25 m radius)")->type_name("NAME");
+  app.add_option("--radius", a.radius, "of the hull, metres (default: 0.25)")->check(CLI::PositiveNumber)->type_name("M");
+  app.add_option("--clearance", a.clearance, "between hull and matter, metres (default: 0.4)")->check(CLI::PositiveNumber)->type_name("M");
+  app.add_option("--noise", a.noise, "standard deviation of the ranges, metres (default: 0)")->check(CLI::NonNegativeNumber)->type_name("M");
+  app.add_option("--rays", a.rays, "rays of the radar, all around (default: 180)")->check(CLI::Range(3, 36000))->type_name("N");
+  app.add_option("--time-limit", a.time_limit, "of a run, simulated seconds (default: what 6 x the bound takes, and 10 minutes)")->check(CLI::PositiveNumber)->type_name("S");
+  app.add_option("--set", a.sets, "any key of `thicket help mission`, for example planner.speed_m_s=0.35; may be given often")->type_name("KEY=VALUE")->allow_extra_args(false);
+  app.add_option("--csv", a.csv, "a row for each run; - is the terminal, instead of the table")->type_name("FILE");
+  app.add_option("--keep-failures", a.keep_failures, "folder for missions that repeat each wrong run with `thicket run`")->type_name("DIR");
+  app.add_option("--jobs", a.jobs, "threads; the result does not depend on it (default: all cores)")->check(CLI::Range(1, 1024))->type_name("N");
+  app.add_flag("--quiet", a.quiet, "no progress");
+  app.footer("A run is right if its verdict is that of the world itself (free space grown by radius and clearance), without a collision; stopped is wrong. A problem whose verdict\n"
+             "changes if the growth changes by 0.1 x clearance + a cell of 0.05 m + 3 x noise is ambiguous: there, only a collision is wrong. Over: longer than 1.05 x the\n"
+             "theorem's bound + 2 m. Exit codes: 0 nothing is wrong or over, 2 bad usage or file, 4 interrupted, 6 something is wrong or over.");
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app{"Thicket simulates robots that find their way by radar."};
   app.name("thicket");
@@ -182,6 +211,9 @@ int dispatch(int argc, char** argv) {
   std::string sensor_name;
   CLI::App& sensors = *app.add_subcommand("sensors", "list the sensor presets that are shipped, or all keys of one");
   sensors.add_option("name", sensor_name, "sensor preset or file (default: a table of all)")->type_name("NAME");
+  ReachabilityArguments reachability_arguments;
+  CLI::App& reachability = *app.add_subcommand("reachability", "run planners on many problems and judge them by the world itself: verdicts, collisions, lengths (exit code 6: something is wrong)");
+  add_reachability(reachability, reachability_arguments);
   CLI::App& help = *app.add_subcommand("help", "explain every key of a mission or world file");
   help.add_option("topic", topic, "mission or world")->required();
   bool markdown = false;
@@ -217,6 +249,7 @@ int dispatch(int argc, char** argv) {
   if (materials.parsed()) return list_materials(materials_arguments);
   if (scan.parsed()) return measure_scans(scan_arguments);
   if (sensors.parsed()) return list_sensors(sensor_name);
+  if (reachability.parsed()) return study_reachability(reachability_arguments);
   return help_topic(topic, markdown);
 }
 

@@ -13,8 +13,8 @@
 
 namespace thicket::cli {
 
-/// 0 reached (or way-points done), 1 internal error, 2 bad usage or file, 3 unreachable, 4 stopped (limit, stuck, interrupted), 5 collided.
-enum ExitCode { done = 0, internal_error = 1, bad_input = 2, unreachable = 3, stopped = 4, collided = 5 };
+/// 0 reached (or way-points done), 1 internal error, 2 bad usage or file, 3 unreachable, 4 stopped (limit, stuck, interrupted), 5 collided, 6 a study found wrong runs.
+enum ExitCode { done = 0, internal_error = 1, bad_input = 2, unreachable = 3, stopped = 4, collided = 5, wrong = 6 };
 
 struct RunArguments {
   std::string mission;
@@ -85,6 +85,24 @@ struct ScanArguments {
 int measure_scans(const ScanArguments& arguments);
 /// The shipped presets; with a name, the keys of one.
 int list_sensors(const std::string& name);
+
+struct ReachabilityArguments {
+  std::vector<std::string> families;  ///< empty: all ten
+  std::optional<int> rooms;           ///< so many rooms of the 2019 study instead
+  std::string maps, world, start, goal;
+  std::optional<double> cell_size;    ///< m, of MovingAI maps
+  int per_map = 200, problems = 10;
+  std::int64_t first = 0;
+  std::vector<std::string> planners, sets;
+  std::string hand = "alternate", vehicle;
+  std::optional<double> noise, radius, clearance, time_limit;
+  std::optional<int> rays;
+  std::string csv, keep_failures;
+  int jobs = 0;
+  bool quiet = false;
+};
+/// 0: nothing is wrong, 6: something is.
+int study_reachability(const ReachabilityArguments& arguments);
 
 int help_topic(const std::string& topic, bool markdown);
 

@@ -51,6 +51,8 @@ class Simulation {
   static Result<Simulation> create(const Mission& mission);
   /// The same in a world that is at hand already, whatever world the mission names.
   static Result<Simulation> create(const Mission& mission, World world);
+  /// The same in a scene that many runs share.
+  static Result<Simulation> create(const Mission& mission, Scene scene);
 
   Simulation(const Simulation& other);
   Simulation& operator=(const Simulation& other);
