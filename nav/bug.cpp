@@ -14,13 +14,15 @@ Bug::Bug(const PlannerSpec& spec, const VehicleLimits& vehicle)
 
 Decision Bug::decide(const Senses& senses) {
   pilot_.look(senses);
+  look_far(senses);
   if (pilot_.at(goal_)) return {{}, Outcome::reached, "at the goal", fmt::format("{:.3f} m from the goal", distance_to_goal())};
   if (!on_boundary_) {
-    if (!pilot_.blocked_toward(goal_)) return {pilot_.go_to(goal_), Outcome::running, "going to the goal", ""};
+    const glm::dvec2 target = aim();
+    if (!pilot_.blocked_toward(target)) return {pilot_.go_to(target), Outcome::running, "going to the goal", ""};
     on_boundary_ = true;
-    hand_ = first_hand_;
-    pilot_.touch_wall_toward(goal_);
-    walk_ = BoundaryWalk(pilot_.pose(), goal_, pilot_.same_place(), pilot_.keep());
+    hand_ = choose_hand(first_hand_);
+    pilot_.touch_wall_toward(target);
+    begin_walk();
     mark("hit", walk_.hit());
     on_hit();
   }
@@ -28,6 +30,8 @@ Decision Bug::decide(const Senses& senses) {
   if (walk_.strayed() && !walk_.closed()) return lost("the boundary that was followed did not lead back to where it was hit");
   return on_boundary();
 }
+
+void Bug::begin_walk() { walk_ = BoundaryWalk(pilot_.pose(), goal_, pilot_.same_place(), pilot_.keep()); }
 
 bool Bug::leads_away() {
   if (pilot_.open_toward(goal_)) return true;
@@ -52,7 +56,7 @@ Decision Bug::follow(const char* state) {
 Decision Bug::leave() {
   on_boundary_ = false;
   mark("leave", pilot_.pose().position);
-  return {pilot_.go_to(goal_), Outcome::running, "leaving the boundary for the goal", ""};
+  return {pilot_.go_to(aim()), Outcome::running, "leaving the boundary for the goal", ""};
 }
 
 Decision Bug::unreachable(const std::string& why) const {

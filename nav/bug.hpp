@@ -22,6 +22,12 @@ class Bug : public Planner {
   virtual Decision on_boundary() = 0;
   /// What to remember when a boundary is met.
   virtual void on_hit() {}
+  /// With every decision, before anything else: for planners that look farther than the pilot does.
+  virtual void look_far(const Senses&) {}
+  /// Where to go straight while no boundary is followed.
+  virtual glm::dvec2 aim() { return goal_; }
+  /// The hand that goes on the wall at a hit; `first` is the one of the spec.
+  virtual Hand choose_hand(Hand first) { return first; }
 
   /// The way from here to the goal does not enter the obstacle that is followed: it is open, or it is something else that stands in it.
   bool leads_away();
@@ -39,6 +45,8 @@ class Bug : public Planner {
   void mark(const char* label, const glm::dvec2& at);
   void mark_segment(const char* label, const glm::dvec2& from, const glm::dvec2& to);
   void turn_round() { hand_ = other(hand_); }
+  /// The walk is counted from here: at a hit, and where a planner turns round for good.
+  void begin_walk();
 
  private:
   Pilot pilot_;

@@ -10,34 +10,89 @@
 
 namespace thicket {
 
+namespace {
+
+struct Kind {
+  const char* name;
+  PlannerNeeds needs;
+  const char* help;
+  std::unique_ptr<Planner> (*make)(const PlannerSpec&, const VehicleLimits&, const Pose2& start);
+};
+
+const std::vector<Kind>& kinds() {
+  using enum PlannerNeeds;
+  static const std::vector<Kind> all = {
+      {"bug1", goal, "once around what is in the way, then from the nearest point on",
+       [](const PlannerSpec& spec, const VehicleLimits& vehicle, const Pose2&) { return make_bug1(spec, vehicle); }},
+      {"bug2", goal, "around it until the line from start to goal is met nearer to the goal",
+       [](const PlannerSpec& spec, const VehicleLimits& vehicle, const Pose2& start) { return make_bug2(spec, vehicle, start.position); }},
+      {"bug2_2012", goal, "the same with the failure rule of 2012, which gives up too early", make_bug2_2012},
+      {"tangent_bug", goal, "past that end of it by which the way is shorter, as far as it sees", make_tangent_bug},
+      {"alg1", goal, "bug2 that turns round where it has hit before", make_alg1},
+      {"alg2", goal, "the same without the line", make_alg2},
+      {"dist_bug", goal, "leaves where the free way to the goal leads nearer than it ever was", make_dist_bug},
+      {"com", goal, "leaves wherever the way to the goal is open, and may go round for ever", make_com},
+      {"i_bug", goal, "leaves where it is open and nearer than the last hit", make_i_bug},
+      {"wall_then_inside", nothing, "explores: once along the wall, then lanes inside of it", make_wall_then_inside},
+      {"bounce", nothing, "explores: straight on, another way at each wall", make_bounce},
+      {"center_out", nothing, "explores: a spiral outward from the start", make_center_out},
+      {"explore", nothing, "one of these three, by what is seen at the start", make_explore},
+      {"waypoints", waypoints, "straight from one to the next", [](const PlannerSpec& spec, const VehicleLimits& vehicle, const Pose2&) { return make_waypoints(spec, vehicle); }},
+  };
+  return all;
+}
+
+const Kind* find_kind(const std::string& name) {
+  const auto found = std::find_if(kinds().begin(), kinds().end(), [&](const Kind& kind) { return kind.name == name; });
+  return found == kinds().end() ? nullptr : &*found;
+}
+
+std::string help_of_kinds() {
+  std::string help;
+  for (const Kind& kind : kinds()) help += fmt::format("{}{}: {}", help.empty() ? "" : "; ", kind.name, kind.help);
+  return help;
+}
+
+}  // namespace
+
 const std::vector<std::string>& planner_names() {
-  static const std::vector<std::string> names = {"bug1", "bug2", "waypoints"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Kind& kind : kinds()) all.push_back(kind.name);
+    return all;
+  }();
   return names;
+}
+
+PlannerNeeds planner_needs(const std::string& name) {
+  const Kind* kind = find_kind(name);
+  return kind ? kind->needs : PlannerNeeds::nothing;
 }
 
 const Section& planner_section() {
   using S = PlannerSpec;
   static const Section section =
       SectionOf<S>("[planner]", "what drives the vehicle")
-          .choice("name", &S::name, planner_names(), "bug1, bug2: to the goal, around what is in the way; waypoints: straight from one to the next")
+          .choice("name", &S::name, planner_names(), help_of_kinds())
           .key("goal_m", &S::goal_m, "m", between(-1e9, 1e9), "x, y of the goal")
           .key("waypoints_m", &S::waypoints_m, "m", between(-1e9, 1e9), "for the planner waypoints: [[x, y], ...] in order")
           .choice("hand", &S::hand, {"left", "right"}, "which hand touches the wall while following it; left turns right at a wall")
           .key("clearance_m", &S::clearance_m, "m", above_up_to(0.0, 1e3), "distance kept between hull and matter; a gap narrower than the hull and two of it is a wall")
           .key("goal_tolerance_m", &S::goal_tolerance_m, "m", above_up_to(0.0, 1e3), "the goal is reached within this")
-          .key("speed_m_s", &S::speed_m_s, "m/s", above_up_to(0.0, 1e3), "cruising speed; not given: the vehicle's own");
+          .key("speed_m_s", &S::speed_m_s, "m/s", above_up_to(0.0, 1e3), "cruising speed; not given: the vehicle's own")
+          .key("explore_m", &S::explore_m, "m", above_up_to(0.0, 1e9), "the explorers end when they have driven this far");
   return section;
 }
 
 Result<std::unique_ptr<Planner>> make_planner(const PlannerSpec& spec, const VehicleLimits& vehicle, const Pose2& start) {
-  if (spec.name == "waypoints") {
-    if (spec.waypoints_m.empty()) return Error{"the planner 'waypoints' lacks way-points: give planner.waypoints_m"};
-    return make_waypoints(spec, vehicle);
-  }
-  if (spec.name != "bug1" && spec.name != "bug2")
+  const Kind* kind = find_kind(spec.name);
+  if (!kind)
     return Error{fmt::format("there is no planner '{}', expected one of '{}'{}", spec.name, fmt::join(planner_names(), "', '"), did_you_mean(spec.name, planner_names()))};
-  if (!spec.goal_m) return Error{fmt::format("the planner '{}' lacks a goal: give planner.goal_m or --goal X,Y", spec.name)};
-  return spec.name == "bug1" ? make_bug1(spec, vehicle) : make_bug2(spec, vehicle, start.position);
+  if (kind->needs == PlannerNeeds::waypoints && spec.waypoints_m.empty())
+    return Error{fmt::format("the planner '{}' lacks way-points: give planner.waypoints_m", spec.name)};
+  if (kind->needs == PlannerNeeds::goal && !spec.goal_m)
+    return Error{fmt::format("the planner '{}' lacks a goal: give planner.goal_m or --goal X,Y", spec.name)};
+  return kind->make(spec, vehicle, start);
 }
 
 double press_distance(const BumperSpec& bumpers, const PlannerSpec& planner, const VehicleLimits& vehicle) {

@@ -1,84 +1,16 @@
-// Planners in a world of discs that only this file knows: they get contours, as from a sensor, and move a point robot that obeys at once.
+// What all planners share, Bug1 and Bug2, and the walk around a boundary.
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 
 #include <glm/geometric.hpp>
 
 #include "boundary_walk.hpp"
+#include "disc_world.hpp"
 #include "thicket/nav/planner.hpp"
 
 namespace thicket {
 namespace {
-
-struct Disc {
-  glm::dvec2 centre{0.0};
-  double radius = 1.0;
-};
-
-Contour see(const std::vector<Disc>& discs, const Pose2& pose) {
-  Contour contour;
-  for (int i = 0; i < 360; ++i) {
-    const double bearing = radians(i - 180.0);
-    const glm::dvec2 along = direction(pose.yaw + bearing);
-    double range = std::numeric_limits<double>::infinity();
-    for (const Disc& disc : discs) {
-      const glm::dvec2 to = disc.centre - pose.position;
-      const double middle = glm::dot(to, along), half = disc.radius * disc.radius - (glm::dot(to, to) - middle * middle);
-      if (half > 0.0 && middle - std::sqrt(half) > 0.0) range = std::min(range, middle - std::sqrt(half));
-    }
-    contour.push_back({std::isfinite(range) ? range * direction(bearing) : glm::dvec2(0.0), range, bearing});
-  }
-  return contour;
-}
-
-struct Run {
-  Decision last;
-  double length = 0.0, least = 1e9, side = 0.0;  ///< side: the largest deviation to the left (+) or right (-) of the straight way along x
-  std::vector<Mark> marks;
-};
-
-Run drive(const std::vector<Disc>& discs, const PlannerSpec& spec) {
-  VehicleLimits vehicle;
-  vehicle.hull_radius = 0.2;
-  vehicle.speed = 0.5;
-  vehicle.turn_rate = 2.0;
-  vehicle.turn_acceleration = 10.0;
-  Pose2 pose;
-  auto planner = make_planner(spec, vehicle, pose);
-  REQUIRE(planner);
-  BumperRing bumpers(BumperSpec{}, vehicle.hull_radius, press_distance(BumperSpec{}, spec, vehicle));
-  Run run;
-  for (int step = 0; step < 20000; ++step) {
-    const Contour contour = see(discs, pose);
-    bumpers.read(contour);
-    run.least = std::min(run.least, bumpers.nearest());
-    run.last = (*planner)->decide({0.1 * step, pose, run.last.command.speed, run.last.command.turn_rate, contour, bumpers});
-    if (run.last.outcome != Outcome::running) break;
-    pose.yaw = wrap_angle(pose.yaw + 0.1 * run.last.command.turn_rate);
-    pose.position += 0.1 * run.last.command.speed * direction(pose.yaw);
-    run.length += 0.1 * run.last.command.speed;
-    if (std::abs(pose.position.y) > std::abs(run.side)) run.side = pose.position.y;
-  }
-  run.marks = (*planner)->marks();
-  return run;
-}
-
-PlannerSpec to(double x, double y, const char* name, const char* hand) {
-  PlannerSpec spec;
-  spec.name = name;
-  spec.goal_m = glm::dvec2(x, y);
-  spec.hand = hand;
-  spec.clearance_m = 0.4;
-  return spec;
-}
-
-std::size_t count(const std::vector<Mark>& marks, const std::string& label) {
-  std::size_t n = 0;
-  for (const Mark& mark : marks) n += mark.label == label;
-  return n;
-}
 
 constexpr double keep = 0.6;
 
@@ -86,7 +18,7 @@ constexpr double keep = 0.6;
 
 TEST_CASE("with nothing in the way both planners go straight") {
   for (const char* name : {"bug1", "bug2"}) {
-    const Run run = drive({}, to(5.0, 0.0, name, "left"));
+    const Run run = drive(std::vector<Disc>{}, to(5.0, 0.0, name, "left"));
     CHECK(run.last.outcome == Outcome::reached);
     CHECK(run.length == doctest::Approx(4.9).epsilon(0.03));
     CHECK(std::abs(run.side) < 0.01);

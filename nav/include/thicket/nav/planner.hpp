@@ -24,10 +24,15 @@ struct PlannerSpec {
   double clearance_m = 1.0;             ///< between hull and matter: two lengths of a P3-AT (2012: two to three)
   double goal_tolerance_m = 0.1;
   std::optional<double> speed_m_s;      ///< cruising speed; not given: the vehicle's
+  double explore_m = 100.0;             ///< explorers: the distance to drive
 };
 const Section& planner_section();
 /// Names that `make_planner` knows.
 const std::vector<std::string>& planner_names();
+/// What a planner cannot do without.
+enum class PlannerNeeds { goal, waypoints, nothing };
+/// Of one of `planner_names()`; a name that is none of them needs nothing.
+PlannerNeeds planner_needs(const std::string& name);
 
 /// What a planner knows of the vehicle that it drives. SI units and radians.
 struct VehicleLimits {
