@@ -52,22 +52,14 @@ BumperRing::BumperRing(const BumperSpec& spec, double hull_radius, double press_
   }
 }
 
-void BumperRing::note(Tally& tally, Bumper& bumper, const ContourPoint& point) {
-  ++tally.rays;
-  tally.counted += point.distance >= tally.from && point.distance <= tally.to;
-  if (point.arc != no_arc && point.distance < none) {
-    const double bearing = bumper.centre + wrap_angle(point.bearing - bumper.centre);
-    if (point.arc != tally.arc) tally.arc_low = tally.arc_high = bearing;
-    tally.arc = point.arc;
-    tally.arc_low = std::min(tally.arc_low, bearing);
-    tally.arc_high = std::max(tally.arc_high, bearing);
-  }
-  if (point.distance < tally.nearest) {
-    tally.nearest = point.distance;
-    tally.nearest_arc = point.arc;
-    bumper.bearing = point.bearing;
-  }
-  if (point.arc == no_arc || point.arc != tally.nearest_arc) return;
+void BumperRing::note_arc(Tally& tally, Bumper& bumper, const ContourPoint& point) {
+  if (point.distance == none) return;
+  const double bearing = bumper.centre + wrap_angle(point.bearing - bumper.centre);
+  if (point.arc != tally.arc) tally.arc_low = tally.arc_high = bearing;
+  tally.arc = point.arc;
+  tally.arc_low = std::min(tally.arc_low, bearing);
+  tally.arc_high = std::max(tally.arc_high, bearing);
+  if (point.arc != tally.nearest_arc) return;
   bumper.bearing_low = tally.arc_low;
   bumper.bearing_high = tally.arc_high;
 }
@@ -86,7 +78,15 @@ void BumperRing::read(const Contour& contour) {
     const int sector = static_cast<int>(point.bearing * sectors_per_radian + count + 0.5);  // bearings are in [-pi, pi]: this is in [count / 2, 3 count / 2 + 1)
     const auto i = static_cast<std::size_t>(sector < count ? sector : sector - count);
     coverage_.note(point.bearing);
-    note(tallies_[i], bumpers_[i], point);
+    Tally& tally = tallies_[i];
+    ++tally.rays;
+    tally.counted += point.distance >= tally.from && point.distance <= tally.to;
+    if (point.distance < tally.nearest) {
+      tally.nearest = point.distance;
+      tally.nearest_arc = point.arc;
+      bumpers_[i].bearing = point.bearing;
+    }
+    if (point.arc != no_arc) note_arc(tally, bumpers_[i], point);
   }
   const bool covered_anew = coverage_.finish();
   for (std::size_t i = 0; i < bumpers_.size(); ++i) {

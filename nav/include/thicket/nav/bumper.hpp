@@ -59,7 +59,7 @@ class BumperRing {
     std::uint32_t arc = no_arc, nearest_arc = no_arc;  ///< that the last point, and the nearest, belongs to
     double arc_low = 0.0, arc_high = 0.0;              ///< bearings of the last one's points in this sector
   };
-  void note(Tally& tally, Bumper& bumper, const ContourPoint& point);
+  static void note_arc(Tally& tally, Bumper& bumper, const ContourPoint& point);
 
   double share_;  ///< of a sector's rays that must count; 0: one ray is enough
   bool band_;
