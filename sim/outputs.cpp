@@ -82,6 +82,7 @@ std::string result_json(const Simulation& simulation) {
     if (verdict && verdict->true_distance_to_goal_m) json["true_distance_to_goal_m"] = *verdict->true_distance_to_goal_m;
     json["final_estimate"] = {{"x_m", estimate.position.x}, {"y_m", estimate.position.y}, {"yaw_deg", degrees(estimate.yaw)}};
   }
+  if (mission.planner.clearance_privileged) json["clearance"] = {{"m", mission.planner.clearance_m}, {"auto", true}, {"privileged", true}};
   json["minimum_clearance_m"] = number(totals.least_clearance);
   json["final_pose"] = {{"x_m", pose.position.x}, {"y_m", pose.position.y}, {"yaw_deg", degrees(pose.yaw)}};
   json["steps"] = simulation.steps();

@@ -8,6 +8,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "thicket/sim/auto_clearance.hpp"
+
 namespace thicket {
 namespace {
 
@@ -55,7 +57,8 @@ Result<Simulation> Simulation::create(const Mission& mission) {
   return create(mission, std::move(*world));
 }
 
-Result<Simulation> Simulation::create(const Mission& mission, World world) {
+Result<Simulation> Simulation::create(const Mission& given, World world) {
+  const Mission mission = with_clearance(given, world);
   auto scene = Scene::build(std::move(world));
   if (!scene) return scene.error();
   std::vector<std::shared_ptr<const Sensor>> sensors;
