@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -9,6 +10,11 @@
 #include "thicket/scan/scan.hpp"
 
 namespace thicket {
+
+/// How many directions `for_fan` gives for a beam of this scan.
+inline std::size_t fan_size(const Scan& scan, double spacing) {
+  return scan.azimuth_opening <= 0.0 ? 1 : static_cast<std::size_t>(std::ceil(scan.azimuth_opening / spacing)) + 1;
+}
 
 /// Calls `use(direction)` with unit vectors of the sensor's frame, `spacing` rad apart or less, that together fill the azimuth opening of a beam; with its own direction where it has none.
 template <class Use>

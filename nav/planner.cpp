@@ -77,7 +77,9 @@ const Section& planner_section() {
           .key("goal_m", &S::goal_m, "m", between(-1e9, 1e9), "x, y of the goal")
           .key("waypoints_m", &S::waypoints_m, "m", between(-1e9, 1e9), "for the planner waypoints: [[x, y], ...] in order")
           .choice("hand", &S::hand, {"left", "right"}, "which hand touches the wall while following it; left turns right at a wall")
-          .key("clearance_m", &S::clearance_m, "m", above_up_to(0.0, 1e3), "distance kept between hull and matter; a gap narrower than the hull and two of it is a wall")
+          .key("clearance_m", &S::clearance_m, "m", above_up_to(0.0, 1e3), "distance kept between hull and matter; a gap narrower than the hull and two of it is a wall. auto: the widest that leaves a way to the goal, computed from the world before the run")
+          .or_word("auto", &S::clearance_auto)
+          .key("clearance_privileged", &S::clearance_privileged, "told of a run whose clearance_m was computed from the world: such a mission leaves it in its mission.toml")
           .key("goal_tolerance_m", &S::goal_tolerance_m, "m", above_up_to(0.0, 1e3), "the goal is reached within this")
           .key("speed_m_s", &S::speed_m_s, "m/s", above_up_to(0.0, 1e3), "cruising speed; not given: the vehicle's own")
           .key("explore_m", &S::explore_m, "m", above_up_to(0.0, 1e9), "the explorers end when they have driven this far");

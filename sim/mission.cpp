@@ -42,7 +42,7 @@ const Section& limit_section() {
   static const Section section = SectionOf<S>("[limits]", "what ends a run with the verdict stopped")
                                      .key("time_s", &S::time_s, "s", above_up_to(0.0, 1e9), "simulated time")
                                      .key("distance_m", &S::distance_m, "m", above_up_to(0.0, 1e9), "distance driven")
-                                     .key("stuck_s", &S::stuck_s, "s", above_up_to(0.0, 1e9), "time without getting 5 cm away or turning");
+                                     .key("stuck_s", &S::stuck_s, "s", above_up_to(0.0, 1e9), "time without getting 5 cm away or turning; four times as long may it turn and twitch without getting 25 cm away");
   return section;
 }
 
@@ -68,6 +68,7 @@ const std::vector<Part>& parts() {
   static const std::vector<Part> list = {
       {"vehicle", &vehicle_section, [](Mission& m) -> void* { return &m.vehicle; }}, {"start", &start_section, [](Mission& m) -> void* { return &m.start; }},
       {"bumpers", &bumper_section, [](Mission& m) -> void* { return &m.bumpers; }},  {"planner", &planner_section, [](Mission& m) -> void* { return &m.planner; }},
+      {"odometry", &odometry_section, [](Mission& m) -> void* { return &m.odometry; }},
       {"map", &map_section, [](Mission& m) -> void* { return &m.map; }},             {"limits", &limit_section, [](Mission& m) -> void* { return &m.limits; }},
       {"output", &output_section, [](Mission& m) -> void* { return &m.output; }},
   };
@@ -157,6 +158,23 @@ void find_files(const Node& root, const std::filesystem::path& file, Mission& mi
   if (!mission.world_image.empty()) mission.image_file = find("world_image", mission.world_image);
 }
 
+/// The names in a list separated by commas, without the blanks around them.
+std::vector<std::string> names_in(const std::string& list) {
+  std::vector<std::string> names;
+  for (std::size_t from = 0; from <= list.size();) {
+    const std::size_t comma = std::min(list.find(',', from), list.size()), first = list.find_first_not_of(" \t", from);
+    if (first < comma) names.push_back(list.substr(first, list.find_last_not_of(" \t", comma - 1) + 1 - first));
+    from = comma + 1;
+  }
+  return names;
+}
+
+std::vector<std::string> sensor_names(const Mission& mission) {
+  std::vector<std::string> names;
+  for (const SensorSpec& sensor : mission.sensors) names.push_back(mounted(sensor).name);
+  return names;
+}
+
 void check_together(const Node& root, const Mission& mission, Faults& faults) {
   const auto place = [&](const char* table) { return root.find(table) ? root.find(table)->place : root.place; };
   if (mission.planner.name == "waypoints" ? mission.planner.waypoints_m.empty() : !mission.planner.goal_m) {
@@ -173,6 +191,10 @@ void check_together(const Node& root, const Mission& mission, Faults& faults) {
     for (std::size_t j = 0; j < i; ++j)
       if (mounted(mission.sensors[i]).name == mounted(mission.sensors[j]).name)
         faults.add(place("sensor"), fmt::format("two sensors are named '{}', expected different names", mounted(mission.sensors[i]).name));
+  const auto known = sensor_names(mission);
+  for (const std::string& name : names_in(mission.bumpers.sensors))
+    if (std::ranges::find(known, name) == known.end())
+      faults.add(place("bumpers"), fmt::format("'sensors' names '{}', expected names of sensors separated by commas, of '{}'{}", name, fmt::join(known, "', '"), did_you_mean(name, known)));
   if (const auto& r = mission.output.observed_region_m; r && (r->z - r->x) * (r->w - r->y) > 1e7 * mission.map.resolution_m * mission.map.resolution_m)
     faults.add(place("output"), "'observed_region_m' has more than 10 million cells, expected a smaller one");
   if (const auto& r = mission.output.observed_region_m; r && !(r->x < r->z && r->y < r->w))
@@ -248,6 +270,17 @@ std::string describe_mission_file() {
   }
   return text + fmt::format("\nA [[sensor]] names a type, or a preset whose keys it may change: {}. Without any [[sensor]], usarsim2012.\nVehicle presets: {}.\n",
                             fmt::join(sensor_presets(), ", "), fmt::join(vehicle_presets(), ", "));
+}
+
+std::vector<std::size_t> bumper_sensors(const Mission& mission) {
+  std::vector<std::size_t> chosen;
+  const auto known = sensor_names(mission);
+  for (const std::string& name : names_in(mission.bumpers.sensors))
+    if (const auto found = std::ranges::find(known, name); found != known.end()) chosen.push_back(static_cast<std::size_t>(found - known.begin()));
+  if (!chosen.empty()) return chosen;
+  for (std::size_t i = 0; i < mission.sensors.size(); ++i)
+    if (i == 0 || (std::holds_alternative<LobeRadarSpec>(mission.sensors[0]) && std::holds_alternative<LobeRadarSpec>(mission.sensors[i]))) chosen.push_back(i);
+  return chosen;
 }
 
 Result<World> read_mission_world(const Mission& mission) {

@@ -77,6 +77,12 @@ std::string result_json(const Simulation& simulation) {
     json["straight_distance_m"] = glm::distance(start, *mission.planner.goal_m);
     json["distance_to_goal_m"] = glm::distance(pose.position, *mission.planner.goal_m);
   }
+  if (!mission.odometry.perfect()) {
+    const Pose2& estimate = simulation.estimate();
+    if (verdict && verdict->true_distance_to_goal_m) json["true_distance_to_goal_m"] = *verdict->true_distance_to_goal_m;
+    json["final_estimate"] = {{"x_m", estimate.position.x}, {"y_m", estimate.position.y}, {"yaw_deg", degrees(estimate.yaw)}};
+  }
+  if (mission.planner.clearance_privileged) json["clearance"] = {{"m", mission.planner.clearance_m}, {"auto", true}, {"privileged", true}};
   json["minimum_clearance_m"] = number(totals.least_clearance);
   json["final_pose"] = {{"x_m", pose.position.x}, {"y_m", pose.position.y}, {"yaw_deg", degrees(pose.yaw)}};
   json["steps"] = simulation.steps();

@@ -8,6 +8,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "thicket/sim/auto_clearance.hpp"
+
 namespace thicket {
 namespace {
 
@@ -27,15 +29,12 @@ class Stopwatch {
 /// How much farther than the least clearance so far is looked, m: the farther, the rarer the next look, but the dearer this one.
 constexpr double look_ahead = 0.5;
 
-/// The planner is driven by the first sensor.
-constexpr std::size_t planning_sensor = 0;
-
 VehicleLimits vehicle_limits(const Mission& mission) {
-  return mission.vehicle.limits(std::max(mission.step_s, 1.0 / mounted(mission.sensors[planning_sensor]).rate_hz));
+  return mission.vehicle.limits(std::max(mission.step_s, 1.0 / mounted(mission.sensors[bumper_sensors(mission).front()]).rate_hz));
 }
 
 BumperRing make_bumpers(const Mission& mission) {
-  return {mission.bumpers, mission.vehicle.radius_m, press_distance(mission.bumpers, mission.planner, vehicle_limits(mission))};
+  return {mission.bumpers, mission.vehicle.radius_m, press_distance(mission.bumpers, mission.planner, vehicle_limits(mission)), mission.planner.clearance_m};
 }
 
 Pose2 start_pose(const Mission& mission) { return {{mission.start.x_m, mission.start.y_m}, wrap_angle(radians(mission.start.yaw_deg))}; }
@@ -64,40 +63,48 @@ Result<Simulation> Simulation::create(const Mission& mission, World world) {
   return create(mission, std::move(*scene));
 }
 
-Result<Simulation> Simulation::create(const Mission& mission, Scene scene) {
+Result<Simulation> Simulation::create(const Mission& given, Scene scene) {
+  const Mission mission = with_clearance(given, scene.world());
   std::vector<std::shared_ptr<const Sensor>> sensors;
   for (const SensorSpec& spec : mission.sensors) sensors.push_back(make_sensor(spec, static_cast<std::uint16_t>(sensors.size())));
   auto planner = make_planner(mission.planner, vehicle_limits(mission), start_pose(mission));
   if (!planner) return planner.error();
-  return Simulation(std::make_shared<const Stage>(Stage{mission, std::move(scene), std::move(sensors)}), std::move(*planner));
+  return Simulation(std::make_shared<const Stage>(Stage{mission, std::move(scene), std::move(sensors), bumper_sensors(mission)}), std::move(*planner));
 }
 
 Simulation::Simulation(std::shared_ptr<const Stage> stage, std::unique_ptr<Planner> planner)
     : stage_(std::move(stage)),
+      odometry_(stage_->mission.odometry, start_pose(stage_->mission), static_cast<std::uint64_t>(stage_->mission.seed)),
       planner_(std::move(planner)),
       bumpers_(make_bumpers(stage_->mission)),
+      readers_(stage_->sensors.size()),
       map_(stage_->mission.map),
       scans_(stage_->sensors.size()),
       scan_counts_(stage_->sensors.size()),
+      scan_estimates_(stage_->sensors.size()),
       scene_(stage_->scene) {
   vehicle_.pose = start_pose(stage_->mission);
   stuck_pose_ = vehicle_.pose;
+  place_ = vehicle_.pose.position;
   clearance_ = scene_.clearance(stage_->mission.vehicle.hull(), vehicle_pose().position, infinity);
   totals_.least_clearance = clear_of_ = clearance_.distance;
   if (clearance_.distance <= 0.0)
-    verdict_ = {Verdict::Kind::collided, fmt::format("the hull touches '{}' at the start", stage_->scene.world().solids[clearance_.solid].name)};
+    end(Verdict::Kind::collided, fmt::format("the hull touches '{}' at the start", stage_->scene.world().solids[clearance_.solid].name));
 }
 
 Simulation::Simulation(const Simulation& other)
     : stage_(other.stage_),
       steps_(other.steps_),
       vehicle_(other.vehicle_),
+      odometry_(other.odometry_),
       planner_(other.planner_->clone()),
       bumpers_(other.bumpers_),
       contour_(other.contour_),
+      readers_(other.readers_),
       map_(other.map_),
       scans_(other.scans_),
       scan_counts_(other.scan_counts_),
+      scan_estimates_(other.scan_estimates_),
       decision_(other.decision_),
       scene_(other.scene_),
       clearance_(other.clearance_),
@@ -106,21 +113,28 @@ Simulation::Simulation(const Simulation& other)
       times_(other.times_),
       verdict_(other.verdict_),
       stuck_pose_(other.stuck_pose_),
-      stuck_step_(other.stuck_step_) {}
+      stuck_step_(other.stuck_step_),
+      place_(other.place_),
+      place_step_(other.place_step_) {}
 
 Simulation& Simulation::operator=(const Simulation& other) {
   if (this != &other) *this = Simulation(other);
   return *this;
 }
 
-Pose Simulation::vehicle_pose() const { return Pose::planar(vehicle_.pose.position.x, vehicle_.pose.position.y, stage_->mission.start.z_m, vehicle_.pose.yaw); }
+Pose Simulation::in_space(const Pose2& pose) const { return Pose::planar(pose.position.x, pose.position.y, stage_->mission.start.z_m, pose.yaw); }
 
 Platform Simulation::platform() const {
   return {vehicle_pose(), vehicle_.speed * glm::dvec3(direction(vehicle_.pose.yaw), 0.0), {0.0, 0.0, vehicle_.turn_rate}};
 }
 
 void Simulation::stop(const std::string& reason) {
-  if (!verdict_) verdict_ = {Verdict::Kind::stopped, reason};
+  if (!verdict_) end(Verdict::Kind::stopped, reason);
+}
+
+void Simulation::end(Verdict::Kind kind, const std::string& reason) {
+  verdict_ = {kind, reason, std::nullopt};
+  if (const auto& goal = stage_->mission.planner.goal_m) verdict_->true_distance_to_goal_m = glm::distance(vehicle_.pose.position, *goal);
 }
 
 bool Simulation::step() {
@@ -140,16 +154,20 @@ void Simulation::sense() {
     scan_counts_[i] = std::max(scan_counts_[i] + 1, static_cast<std::uint64_t>(std::floor((time() + 1e-9) * rate)) + 1);
     due.push_back(i);
   }
+  if (due.empty()) return;
   measure(due);
+  bool decides = false;
   for (const std::size_t i : due) {
     ++totals_.scans;
     totals_.rays += scans_[i].rays;
+    scan_estimates_[i] = estimate();
+    decides = decides || i == stage_->bumper_sensors.front();
     if (stage_->mission.map.enabled) {
       const Stopwatch watch(times_.map);
-      map_.integrate(scans_[i], vehicle_pose());
+      map_.integrate(scans_[i], in_space(estimate()));
     }
-    if (i == planning_sensor) decide();
   }
+  if (decides) decide();
 }
 
 void Simulation::measure(const std::vector<std::size_t>& due) {
@@ -166,15 +184,22 @@ void Simulation::measure(const std::vector<std::size_t>& due) {
 
 void Simulation::decide() {
   const Stopwatch watch(times_.plan);
-  read_contour(scans_[planning_sensor], contour_);
+  const Pose2& now = estimate();
+  contour_.clear();
+  for (const std::size_t i : stage_->bumper_sensors) {
+    // What was sensed a while ago is where it was, and the robot has moved since, as it believes.
+    const bool fresh = scans_[i].time == time();
+    if (fresh) readers_[i].add(scans_[i], contour_);
+    else readers_[i].add(scans_[i], {now.to_inner(scan_estimates_[i].position), wrap_angle(scan_estimates_[i].yaw - now.yaw)}, contour_);
+  }
   bumpers_.read(contour_);
-  decision_ = planner_->decide({time(), vehicle_.pose, vehicle_.speed, vehicle_.turn_rate, contour_, bumpers_});
+  decision_ = planner_->decide({time(), now, vehicle_.speed, vehicle_.turn_rate, contour_, bumpers_});
   ++totals_.decisions;
   switch (decision_.outcome) {
     case Outcome::running: break;
-    case Outcome::reached: verdict_ = {Verdict::Kind::reached, decision_.reason}; break;
-    case Outcome::unreachable: verdict_ = {Verdict::Kind::unreachable, decision_.reason}; break;
-    case Outcome::stuck: verdict_ = {Verdict::Kind::stopped, decision_.reason}; break;
+    case Outcome::reached: end(Verdict::Kind::reached, decision_.reason); break;
+    case Outcome::unreachable: end(Verdict::Kind::unreachable, decision_.reason); break;
+    case Outcome::stuck: end(Verdict::Kind::stopped, decision_.reason); break;
   }
 }
 
@@ -189,6 +214,7 @@ void Simulation::move() {
     const double t = mission.step_s * share(s);
     return Moment{{length > 0.0 ? arc.at(t).position : arc.start.position, mission.start.z_m}, began + t};
   };
+  odometry_.advance(arc, mission.step_s, steps_);
   ++steps_;
   scene_.set_time(time());
   // While nothing can have come nearer than the least so far, there is nothing to look for.
@@ -202,8 +228,8 @@ void Simulation::move() {
       vehicle_.pose = arc.at(mission.step_s * share(contact));
       scene_.set_time(began + mission.step_s * share(contact));
       totals_.path_length += length * share(contact);
-      verdict_ = {Verdict::Kind::collided, fmt::format("the hull touched '{}' with the robot at ({:.2f}, {:.2f})", scene_.world().solids[clearance_.solid].name,
-                                                       vehicle_.pose.position.x, vehicle_.pose.position.y)};
+      end(Verdict::Kind::collided, fmt::format("the hull touched '{}' with the robot at ({:.2f}, {:.2f})", scene_.world().solids[clearance_.solid].name, vehicle_.pose.position.x,
+                                               vehicle_.pose.position.y));
       return;
     }
   }
@@ -215,12 +241,26 @@ void Simulation::check_limits() {
   const LimitSpec& limits = stage_->mission.limits;
   if (time() >= limits.time_s) return stop(fmt::format("time limit of {} s", limits.time_s));
   if (limits.distance_m && totals_.path_length >= *limits.distance_m) return stop(fmt::format("distance limit of {} m", *limits.distance_m));
+  check_progress();
+}
+
+void Simulation::check_progress() {
+  const LimitSpec& limits = stage_->mission.limits;
+  const auto since = [&](std::uint64_t step) { return static_cast<double>(steps_ - step) * stage_->mission.step_s; };
   const bool moved = glm::distance(vehicle_.pose.position, stuck_pose_.position) > 0.05 || std::abs(wrap_angle(vehicle_.pose.yaw - stuck_pose_.yaw)) > radians(5.0);
   if (moved) {
     stuck_pose_ = vehicle_.pose;
     stuck_step_ = steps_;
-  } else if (static_cast<double>(steps_ - stuck_step_) * stage_->mission.step_s >= limits.stuck_s) {
-    stop(fmt::format("stuck for {} s: {}", limits.stuck_s, decision_.state));
+  } else if (since(stuck_step_) >= limits.stuck_s) {
+    return stop(fmt::format("stuck for {} s: {}", limits.stuck_s, decision_.state));
+  }
+  // One that turns for ever, or twitches, gets to no new place. Turning to look takes seconds, and a vehicle too slow for a quarter of a metre in that time is asked for less.
+  const double patience = 4.0 * limits.stuck_s, speed = stage_->mission.planner.speed_m_s.value_or(stage_->mission.vehicle.speed_max_m_s);
+  if (glm::distance(vehicle_.pose.position, place_) > std::min(0.25, 0.25 * patience * std::min(speed, stage_->mission.vehicle.speed_max_m_s))) {
+    place_ = vehicle_.pose.position;
+    place_step_ = steps_;
+  } else if (since(place_step_) >= patience) {
+    stop(fmt::format("moved on the spot for {} s without getting anywhere: {}", patience, decision_.state));
   }
 }
 

@@ -142,11 +142,13 @@ void decisions(benchmark::State& state, const std::vector<Moment>& moments, cons
   const VehicleLimits limits = m.vehicle.limits(0.1);
   const auto planner = or_exit(make_planner(m.planner, limits, simulation.vehicle().pose));
   Contour contour;
+  ContourReader reader;
   for (auto _ : state) {
     const auto fresh = planner->clone();
     BumperRing bumpers = simulation.bumpers();
     for (const Moment& moment : moments) {
-      read_contour(moment.scan, contour);
+      contour.clear();
+      reader.add(moment.scan, contour);
       bumpers.read(contour);
       benchmark::DoNotOptimize(bumpers.any_pressed());
       if (plan) benchmark::DoNotOptimize(fresh->decide({moment.time, moment.pose, moment.speed, moment.turn_rate, contour, bumpers}));

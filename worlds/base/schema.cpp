@@ -31,7 +31,7 @@ std::string expectation(const Key& key) {
     case KeyKind::integer:
       return fmt::format("an integer{}{}", unit_in_words(key), limits);
     case KeyKind::number:
-      return fmt::format("a number{}{}", unit_in_words(key), limits);
+      return fmt::format("a number{}{}{}", unit_in_words(key), limits, key.word.empty() ? "" : ", or '" + key.word + "'");
     case KeyKind::text:
       return key.choices.empty() ? "a text in quotes" : fmt::format("one of '{}'", fmt::join(key.choices, "', '"));
     case KeyKind::numbers:
@@ -121,6 +121,7 @@ std::optional<Value> read_value(const Node& node, const Key& key, Faults& faults
       }
       break;
     case KeyKind::number:
+      if (const auto* text = std::get_if<std::string>(&node.content); text && !key.word.empty() && *text == key.word) return *text;
       if (const auto number = read_number(node, key, faults)) return *number;
       return std::nullopt;
     case KeyKind::text:

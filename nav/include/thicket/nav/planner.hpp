@@ -22,6 +22,8 @@ struct PlannerSpec {
   std::vector<glm::dvec2> waypoints_m;  ///< for the planner "waypoints"
   std::string hand = "left";            ///< which hand touches the wall while following it
   double clearance_m = 1.0;             ///< between hull and matter: two lengths of a P3-AT (2012: two to three)
+  bool clearance_auto = false;          ///< clearance_m is yet to be computed from the world, before the run
+  bool clearance_privileged = false;    ///< clearance_m was computed from the world, which a robot could not know
   double goal_tolerance_m = 0.1;
   std::optional<double> speed_m_s;      ///< cruising speed; not given: the vehicle's
   double explore_m = 100.0;             ///< explorers: the distance to drive

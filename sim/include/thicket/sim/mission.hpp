@@ -15,6 +15,7 @@
 #include "thicket/nav/occupancy_map.hpp"
 #include "thicket/nav/planner.hpp"
 #include "thicket/radar/sensor_spec.hpp"
+#include "thicket/sim/odometry.hpp"
 #include "thicket/sim/vehicle.hpp"
 #include "thicket/worlds/world.hpp"
 
@@ -55,6 +56,7 @@ struct Mission {
   std::vector<SensorSpec> sensors;
   BumperSpec bumpers;
   PlannerSpec planner;
+  OdometrySpec odometry;
   MapSpec map;
   LimitSpec limits;
   OutputSpec output;
@@ -79,6 +81,10 @@ std::string write_mission(const Mission& mission);
 
 /// All sections, keys, units, ranges, defaults: `thicket help mission`.
 std::string describe_mission_file();
+
+/// Which sensors drive the bumpers, as places in `sensors`, in order: those that `bumpers.sensors` names; without names the first, and if that is a lobe radar all lobe radars. Never empty. Names
+/// that no sensor has are passed over; `read_mission` complains of them.
+std::vector<std::size_t> bumper_sensors(const Mission& mission);
 
 /// Reads the world that a mission names.
 Result<World> read_mission_world(const Mission& mission);

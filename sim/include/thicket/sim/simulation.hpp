@@ -13,6 +13,7 @@
 #include "thicket/nav/planner.hpp"
 #include "thicket/radar/sensor.hpp"
 #include "thicket/sim/mission.hpp"
+#include "thicket/sim/odometry.hpp"
 #include "thicket/sim/vehicle.hpp"
 #include "thicket/worlds/scene.hpp"
 
@@ -23,6 +24,8 @@ struct Verdict {
   enum class Kind { reached, unreachable, stopped, collided };
   Kind kind = Kind::stopped;
   std::string reason;
+  /// Where the robot really is when the run ends: a planner whose pose estimate is off may believe that it has reached the goal. Nothing without a goal.
+  std::optional<double> true_distance_to_goal_m;
 };
 const char* to_string(Verdict::Kind kind);
 
@@ -43,6 +46,7 @@ struct Stage {
   Mission mission;
   Scene scene;  ///< as it is at time 0; each simulation has its own, whose solids move
   std::vector<std::shared_ptr<const Sensor>> sensors;
+  std::vector<std::size_t> bumper_sensors;  ///< places in `sensors`; the planner decides when the first of them has scanned
 };
 
 class Simulation {
@@ -72,7 +76,9 @@ class Simulation {
   double time() const { return static_cast<double>(steps_) * stage_->mission.step_s; }
   std::uint64_t steps() const { return steps_; }
   const DifferentialDrive& vehicle() const { return vehicle_; }
-  Pose vehicle_pose() const;  ///< in space, on the start's height
+  /// The vehicle's pose as the robot believes it: the truth if its odometry is perfect.
+  const Pose2& estimate() const { return odometry_.perfect() ? vehicle_.pose : odometry_.pose(); }
+  Pose vehicle_pose() const { return in_space(vehicle_.pose); }  ///< in space, on the start's height
   Platform platform() const;  ///< the same with how it moves, for sensors
   const Clearance& clearance() const { return clearance_; }  ///< as last looked for: not while nothing can be nearer than the least so far, and not much farther than that
   const RunTotals& totals() const { return totals_; }
@@ -88,21 +94,27 @@ class Simulation {
  private:
   Simulation(std::shared_ptr<const Stage> stage, std::unique_ptr<Planner> planner);
 
+  Pose in_space(const Pose2& pose) const;
   void sense();
   void measure(const std::vector<std::size_t>& due);
   void decide();
   void move();
   void check_limits();
+  void check_progress();
+  void end(Verdict::Kind kind, const std::string& reason);
 
   std::shared_ptr<const Stage> stage_;
   std::uint64_t steps_ = 0;
   DifferentialDrive vehicle_;
+  Odometry odometry_;
   std::unique_ptr<Planner> planner_;
   BumperRing bumpers_;
   Contour contour_;
+  std::vector<ContourReader> readers_;      ///< one per sensor
   OccupancyMap map_;
   std::vector<Scan> scans_;
   std::vector<std::uint64_t> scan_counts_;
+  std::vector<Pose2> scan_estimates_;       ///< where the robot believed to be at each sensor's last scan
   Decision decision_;
   Scene scene_;
   Clearance clearance_;
@@ -112,6 +124,8 @@ class Simulation {
   std::optional<Verdict> verdict_;
   Pose2 stuck_pose_;           ///< where the vehicle was when it last got away
   std::uint64_t stuck_step_ = 0;
+  glm::dvec2 place_{0.0, 0.0};  ///< the last new place that it came to
+  std::uint64_t place_step_ = 0;
 };
 
 }  // namespace thicket

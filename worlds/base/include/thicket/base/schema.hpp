@@ -54,6 +54,7 @@ struct Key {
   Range range;       ///< of each number
   std::size_t length_min = 0, length_max = 0;  ///< of `numbers`, and of each of `points`
   std::vector<std::string> choices;            ///< of a text; empty: any text
+  std::string word;                            ///< that a number may be instead; empty: none
   bool required = false;
   std::string help;
   std::function<Value(const void*)> get;
@@ -87,6 +88,18 @@ class SectionOf : public Section {
   SectionOf& choice(std::string key_name, std::string Owner::*member, std::vector<std::string> choices, std::string key_help) {
     key(std::move(key_name), member, std::move(key_help));
     keys.back().choices = std::move(choices);
+    return *this;
+  }
+  /// The number that was declared last may be a word instead ("auto"): then `chosen` is set and the number stays as it is; a number clears it.
+  template <class Owner>
+  SectionOf& or_word(std::string word, bool Owner::*chosen) {
+    Key& k = keys.back();
+    k.word = word;
+    k.get = [get = k.get, chosen, word](const void* object) -> Value { return static_cast<const S*>(object)->*chosen ? Value(word) : get(object); };
+    k.set = [set = k.set, chosen](void* object, const Value& value) {
+      static_cast<S*>(object)->*chosen = std::holds_alternative<std::string>(value);
+      if (!std::holds_alternative<std::string>(value)) set(object, value);
+    };
     return *this;
   }
   SectionOf& required() {
