@@ -34,6 +34,7 @@ struct Problem {
   double cell_size_m = 0.0;            ///< of a MovingAI map; else 0
   Pose2 start;
   glm::dvec2 goal{0.0, 0.0};
+  std::filesystem::path world_image = {};  ///< of a map whose YAML names an image that is not there: the one that was read instead; else empty
 };
 
 /// The ten families that a rigorous suite of worlds has, in the order in which they are told: convex, spiral, maze, comb, enclosed, goal, m_line, thin, twins, random.
@@ -72,11 +73,11 @@ struct ReadProblems {
   std::vector<std::string> notices;
 };
 
-/// The problems of a map or world, or of all maps (map_server YAML, MovingAI `.map`) and world files (TOML) below a folder, in the order of their paths.
-/// Start and goal of a MovingAI map are those of the scenarios beside it (NAME.scen, NAME.map.scen, NAME-*.scen), spread evenly over their list; where there are none,
-/// or too few, they are random places that are joined to no condition but that both are free. All of them are at least `keep()` from matter: those of scenarios that
-/// are not are passed over and counted in a notice, and so is a map with no room for the robot. Where the image that a YAML names is missing, one of the YAML's own
-/// name is taken (x.yaml: x.pgm, x.png). Errors name the file.
+/// The problems of a map or world, or of all maps (map_server YAML, MovingAI `.map`) and world files (TOML) below a folder, in the order of their paths; missions are
+/// passed over. Start and goal of a MovingAI map are those of the scenarios beside it (NAME.scen, NAME.map.scen, NAME-*.scen, the rows that name the map), spread evenly
+/// over their list, but for those that are nearer to matter than `keep()`: they are counted in a notice. Where there are none or too few of them, starts and goals are
+/// random places that are free after growth by `keep()` and `problem_doubt`, joined or not. A world that moves or has no room for the robot has no problems, and a notice.
+/// Where the image that a YAML names cannot be read, one of the YAML's own name is taken (x.yaml: x.pgm, x.png). Errors name the file: what cannot be read, no map at all.
 Result<ReadProblems> read_problems(const std::filesystem::path& folder_or_file, const MapProblems& how, const Robot& robot);
 
 }  // namespace thicket
