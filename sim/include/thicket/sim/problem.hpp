@@ -45,8 +45,8 @@ const std::string& family_in_words(const std::string& family);
 
 /// The problem of a number in one of `problem_families`, or in "rooms2019" (rooms and corridors on 14 x 14 m as McGuire et al. 2019 generate them, corner to corner).
 /// A function of its arguments alone: the same numbers wherever the mathematical library is the same. Matter is one opaque material, "wall", and stands from z = 0 to
-/// above the hull. All widths follow from the robot: lengths without a need of their own are in units of its `keep()` / 0.65 m, so that the robot for which the
-/// worlds are meant (radius 0.25 m, clearance 0.4 m) has them 8 to 12 m wide.
+/// above the hull. All widths follow from the robot: lengths without a need of their own scale with `keep()` and what is in doubt, so that the robot for which the worlds
+/// are meant (radius 0.25 m, clearance 0.4 m) has them 8 to 12 m wide, the widest 14 m.
 /// Start and goal are free after growth by `keep()` and `problem_doubt`, but where a family is about just that (goal, m_line). Errors: an unknown family (with the
 /// nearest known one), a robot whose size is not finite or not greater than 0.
 Result<Problem> make_problem(const std::string& family, std::uint64_t number, const Robot& robot);
