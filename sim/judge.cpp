@@ -6,6 +6,7 @@
 #include <optional>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 namespace thicket {
 namespace {
@@ -115,6 +116,28 @@ struct Oracle::State {
         if (distances.at(start + (there - start) * (static_cast<double>(i) / pieces)) < clear) return;
       list.push_back(component);
     });
+    return list.empty() ? ways_out(space, start) : list;
+  }
+
+  /// The components that are near a start which has no straight way out (in a gap, a corner): by ways that come no nearer to matter than it is.
+  std::vector<std::uint32_t> ways_out(const FreeSpace& space, const glm::dvec2& start) const {
+    std::vector<std::uint32_t> list;
+    const double least = distances.at(start) - distances.resolution, radius = 3.0 * space.grow();
+    std::vector<glm::ivec2> open = {glm::ivec2((start - distances.low) / distances.resolution)};
+    std::vector<std::uint8_t> seen(distances.distance.size(), 0);
+    while (!open.empty()) {
+      const glm::ivec2 at = open.back();
+      open.pop_back();
+      if (at.x < 0 || at.y < 0 || at.x >= distances.width || at.y >= distances.height || glm::distance(distances.node(at.x, at.y), start) > radius) continue;
+      const std::size_t cell = static_cast<std::size_t>(at.y) * static_cast<std::size_t>(distances.width) + static_cast<std::size_t>(at.x);
+      if (seen[cell] || static_cast<double>(distances.distance[cell]) < least || distances.distance[cell] == 0.0f) continue;
+      seen[cell] = 1;
+      if (const std::uint32_t component = space.component_at(at.x, at.y)) {
+        if (std::find(list.begin(), list.end(), component) == list.end()) list.push_back(component);
+        continue;
+      }
+      for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(-1, 0), glm::ivec2(0, -1)}) open.push_back(at + step);
+    }
     return list;
   }
 

@@ -33,7 +33,7 @@ constexpr Family families[] = {
     {"m_line", make_m_line, "the straight way tangent to an obstacle, through a corner, or along a wall; the start at an obstacle; start and goal as good as one"},
     {"thin", make_thin, "walls of millimetres, gaps too narrow, boxes that meet in a point, at the arena's edge or when they grow, posts of centimetres"},
     {"random", make_random, "three to twelve boxes, posts and walls at random, now and then a pen or a wall from side to side"},
-    {"comb", make_comb, "combs: two in each other, where Bug1 is shorter than Bug2, and one that stands free, where it is the opposite; some closed"},
+    {"comb", make_comb, "combs: two in each other, where Bug1 is shorter than Bug2 on one hand at least, and one that stands free, where Bug2 is; some closed"},
     {"rooms2019", make_rooms2019, "rooms and corridors with doors, on 14 x 14 m, from corner to corner"},
 };
 

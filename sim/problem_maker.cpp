@@ -64,7 +64,7 @@ ProblemMaker::ProblemMaker(const Robot& whose, std::uint16_t family, std::uint64
       number(which),
       keep(whose.keep()),
       doubt(problem_doubt(whose) + half_cell_diagonal),
-      unit(keep / 0.65),
+      unit((keep + doubt) / 0.866),
       open(2.0 * (keep + doubt) + 0.01),
       closed(std::max(2.0 * (keep - doubt) - 0.01, 0.5 * keep)),
       random_(which, family),

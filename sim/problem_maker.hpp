@@ -55,9 +55,9 @@ class ProblemMaker {
 
   const Robot& robot;
   const std::uint64_t number;
-  const double keep;
+  const double keep;    ///< Robot::keep
   const double doubt;   ///< somewhat more than `problem_doubt`
-  const double unit;    ///< the scale of lengths: 1 for a robot that keeps 0.65 m
+  const double unit;    ///< the scale of lengths: by how much matter grows, over what that is for a robot of radius 0.25 m and clearance 0.4 m
   const double open;    ///< the least width of a passage that is open without a doubt
   const double closed;  ///< the greatest width of one that is closed without a doubt
   bool start_is_free = true, goal_is_free = true;  ///< whether they have to be; a family that is about just that says no

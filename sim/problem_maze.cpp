@@ -138,7 +138,7 @@ void divide(ProblemMaker& m, const glm::dvec2& low, const glm::dvec2& high, int 
 }  // namespace
 
 void make_maze(ProblemMaker& m) {
-  const bool closed = m.number % 10 >= 6;
+  const bool closed = m.number % 10 >= 7;
   const bool comb = m.number % 3 == 2;
   const int columns = m.whole(comb ? 4 : 3, 5), rows = m.whole(comb ? 2 : 3, comb ? 3 : 5);
   Cells cells(columns, rows);
@@ -162,10 +162,11 @@ void make_maze(ProblemMaker& m) {
 
 namespace {
 
-/// Two combs, one in the other, in an outer wall; the straight way crosses all teeth in their middles. Bug2 goes round nearly the whole contour again at every second
-/// tooth (those that its hand leads away from), n / 2 times in all; Bug1 goes round once, and back half of it at most: from four teeth on it is shorter.
+/// Two combs, one in the other, in an outer wall; the straight way crosses all teeth in their middles. At every second tooth (those of the
+/// one comb or of the other, by its hand) Bug2 goes back round nearly the whole contour before it is behind the tooth, so its way grows with the square of the number of
+/// teeth; Bug1 goes round once, and back half of it at most. Measured: from four teeth on Bug1 is shorter on one of the two hands, with six on either.
 void make_two_combs(ProblemMaker& m, bool closed) {
-  const int columns = m.whole(5, 6), rows = 3;
+  const int columns = m.whole(5, 7), rows = 3;
   Cells cells(columns, rows);
   carve_comb(cells, columns, rows, true);
   const int from = cells.cell(0, 1), to = cells.cell(columns - 1, 1);
@@ -199,7 +200,7 @@ void make_free_comb(ProblemMaker& m, bool closed) {
     m.start.position = {x, -across};
     m.goal = {x + m.uniform(-0.2, 0.2) * deep, across};
   }
-  const double farthest = std::max({outside, 0.5 * tall, std::abs(m.start.position.y)});
+  const double farthest = std::max({outside, 0.5 * (tall + thickness), std::abs(m.start.position.y)});
   if (m.chance(0.4)) m.arena(farthest + m.open + m.length(0.0, 0.4));
   if (m.chance(0.5) && !closed) std::swap(m.start.position, m.goal);
 }

@@ -106,7 +106,7 @@ void make_thin(ProblemMaker& m) {
   m.start.position = {-half + free + m.length(0.0, 0.3), m.uniform(-span, span)};
   m.goal = {half - free - m.length(0.0, 0.3), m.uniform(-span, span)};
   const Arena arena{half, half - 2.0 * free - 0.8 * m.unit};
-  const bool closed = m.number / 7 % 2 == 0;
+  const bool closed = m.number / 7 % 3 == 0;
   switch (m.number % 7) {
     case 0: make_thin_walls(m, arena, closed); break;
     case 1: make_sliver(m, arena); break;

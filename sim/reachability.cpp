@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <list>
 #include <mutex>
 #include <optional>
@@ -15,7 +16,6 @@
 #include "reachability_failures.hpp"
 #include "thicket/base/files.hpp"
 #include "thicket/base/text.hpp"
-#include "thicket/scan/scan.hpp"
 
 namespace thicket {
 namespace {
@@ -243,7 +243,7 @@ Result<std::vector<Attempt>> run_reachability(const ProblemList& problems, const
   };
   tbb::task_arena arena(options.jobs > 0 ? options.jobs : static_cast<int>(tbb::task_arena::automatic));
   // One problem a task: some take a thousand times as long as others.
-  arena.execute([&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, problems.count, 1), [&](const auto& range) { for (std::size_t i = range.begin(); i < range.end(); ++i) one(i); }, tbb::simple_partitioner()); });
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, problems.count, std::size_t{1}, one, tbb::simple_partitioner()); });
   if (fault) return fault->second;
   std::vector<Attempt> attempts;
   for (auto& row : rows) std::move(row.begin(), row.end(), std::back_inserter(attempts));

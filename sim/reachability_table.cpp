@@ -69,14 +69,17 @@ std::vector<ReachabilityTotals> total(const std::vector<Attempt>& attempts) {
   std::vector<ReachabilityTotals> totals;
   for (const std::string& planner : planners) {
     std::vector<const Attempt*> all;
+    std::size_t several = 0;
     for (const std::string& family : families) {
       std::vector<const Attempt*> own;
       for (const Attempt& a : attempts)
         if (a.planner == planner && a.family == family) own.push_back(&a);
-      if (!own.empty()) totals.push_back(total_of(planner, family, own));
+      if (own.empty()) continue;
+      ++several;
+      totals.push_back(total_of(planner, family, own));
       all.insert(all.end(), own.begin(), own.end());
     }
-    if (families.size() > 1) totals.push_back(total_of(planner, "all", all));
+    if (several > 1) totals.push_back(total_of(planner, "all", all));
   }
   return totals;
 }

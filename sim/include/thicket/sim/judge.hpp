@@ -41,8 +41,9 @@ class Oracle {
   /// `start` and `goal` lie in the window, or outside of it in the open.
   ///
   /// The goal is reached within the robot's goal tolerance: by a free cell no farther from it, or its own. A start nearer to matter than the growth is one that the robot drives
-  /// away from: it may come to any free cell within growth - distance + 3 cells in a straight line that stays clear of matter; if those lie in different components
-  /// with different verdicts, the problem is ambiguous.
+  /// away from: it may come to any free cell within growth - distance + 3 cells in a straight line that stays clear of matter, or, if there is
+  /// none (in a gap that is too narrow), to any that is joined to it within 3 times the growth by ways that come no nearer to matter; if those lie in different components with
+  /// different verdicts, the problem is ambiguous.
   Judgement judge(const glm::dvec2& start, const glm::dvec2& goal) const;
 
   double cell() const;

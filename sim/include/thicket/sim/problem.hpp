@@ -34,6 +34,7 @@ struct Problem {
   double cell_size_m = 0.0;            ///< of a MovingAI map; else 0
   Pose2 start;
   glm::dvec2 goal{0.0, 0.0};
+  std::filesystem::path world_image = {};  ///< of a map whose YAML names an image that is not there: the one that was read instead; else empty
 };
 
 /// The ten families that a rigorous suite of worlds has, in the order in which they are told: convex, spiral, maze, comb, enclosed, goal, m_line, thin, twins, random.
@@ -44,8 +45,8 @@ const std::string& family_in_words(const std::string& family);
 
 /// The problem of a number in one of `problem_families`, or in "rooms2019" (rooms and corridors on 14 x 14 m as McGuire et al. 2019 generate them, corner to corner).
 /// A function of its arguments alone: the same numbers wherever the mathematical library is the same. Matter is one opaque material, "wall", and stands from z = 0 to
-/// above the hull. All widths follow from the robot: lengths without a need of their own are in units of its `keep()` / 0.65 m, so that the robot for which the
-/// worlds are meant (radius 0.25 m, clearance 0.4 m) has them 8 to 12 m wide.
+/// above the hull. All widths follow from the robot: lengths without a need of their own scale with `keep()` and what is in doubt, so that the robot for which the worlds
+/// are meant (radius 0.25 m, clearance 0.4 m) has them 8 to 12 m wide, the widest 14 m.
 /// Start and goal are free after growth by `keep()` and `problem_doubt`, but where a family is about just that (goal, m_line). Errors: an unknown family (with the
 /// nearest known one), a robot whose size is not finite or not greater than 0.
 Result<Problem> make_problem(const std::string& family, std::uint64_t number, const Robot& robot);
@@ -72,11 +73,11 @@ struct ReadProblems {
   std::vector<std::string> notices;
 };
 
-/// The problems of a map or world, or of all maps (map_server YAML, MovingAI `.map`) and world files (TOML) below a folder, in the order of their paths.
-/// Start and goal of a MovingAI map are those of the scenarios beside it (NAME.scen, NAME.map.scen, NAME-*.scen), spread evenly over their list; where there are none,
-/// or too few, they are random places that are joined to no condition but that both are free. All of them are at least `keep()` from matter: those of scenarios that
-/// are not are passed over and counted in a notice, and so is a map with no room for the robot. Where the image that a YAML names is missing, one of the YAML's own
-/// name is taken (x.yaml: x.pgm, x.png). Errors name the file.
+/// The problems of a map or world, or of all maps (map_server YAML, MovingAI `.map`) and world files (TOML) below a folder, in the order of their paths; missions are
+/// passed over. Start and goal of a MovingAI map are those of the scenarios beside it (NAME.scen, NAME.map.scen, NAME-*.scen, the rows that name the map), spread evenly
+/// over their list, but for those that are nearer to matter than `keep()`: they are counted in a notice. Where there are none or too few of them, starts and goals are
+/// random places that are free after growth by `keep()` and `problem_doubt`, joined or not. A world that moves or has no room for the robot has no problems, and a notice.
+/// Where the image that a YAML names cannot be read, one of the YAML's own name is taken (x.yaml: x.pgm, x.png). Errors name the file: what cannot be read, no map at all.
 Result<ReadProblems> read_problems(const std::filesystem::path& folder_or_file, const MapProblems& how, const Robot& robot);
 
 }  // namespace thicket

@@ -32,8 +32,8 @@ Result<Mission> lean_mission(const std::vector<Override>& changes = {});
 Robot robot_of(const Mission& mission);
 double noise_of(const Mission& mission);
 
-/// How often a run of a planner is to be told from one that goes round for ever: it is stopped after 3 x its bound + 100 m (of a planner without one, the greatest of
-/// the others' bounds), or twice the time that this takes at cruising speed + 10 minutes, unless `lean` has limits of its own.
+/// The mission of one run. What goes round for ever is stopped after 3 x the planner's bound + 100 m (of a planner without one, the greatest of the others' bounds), or
+/// twice the time that this takes at cruising speed + 10 minutes, unless `lean` has limits of its own.
 Mission mission_of(const Mission& lean, const Problem& problem, const Judgement& judgement, const std::string& planner, const std::string& hand);
 
 enum class Score { right, wrong, ambiguous };

@@ -52,7 +52,8 @@ class FreeSpace {
   std::uint32_t component_at(int column, int row) const { return labels_[static_cast<std::size_t>(row + 1) * stride() + static_cast<std::size_t>(column + 1)]; }
   std::uint32_t outside() const { return labels_[0]; }
   /// The lines of all components, in the order of their lowest, leftmost edges. Linear between nodes (marching squares, Lorensen & Cline 1987, in the plane; blocked
-  /// nodes are 8-connected): lengths of smooth lines are good to a few parts in a thousand where the grown matter is wider than some cells.
+  /// nodes are 8-connected): lengths of smooth lines are good to a few parts in a thousand where the grown matter is wider than some cells; of
+  /// a notch between two grown pieces, what lies within one square of nodes is cut off.
   const std::vector<GrownContour>& contours() const { return contours_; }
   /// The free cells as a raster, for `shortest_path`.
   TruthGrid grid() const;
