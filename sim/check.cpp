@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "thicket/worlds/truth.hpp"
@@ -18,14 +19,33 @@ std::string name_some(const std::vector<std::string>& names) {
   return text + (names.size() > 3 ? ", ...)" : ")");
 }
 
+/// The sensor whose scans the planner decides on; the first of those that drive the bumpers.
+const Sensor& deciding_sensor(const Simulation& simulation) { return *simulation.stage().sensors[simulation.stage().bumper_sensors.front()]; }
+const SensorSpec& deciding_spec(const Simulation& simulation) { return simulation.mission().sensors[simulation.stage().bumper_sensors.front()]; }
+
+/// Of all directions, how many degrees the sensors that drive the bumpers see together.
+double seen_degrees(const Simulation& simulation) {
+  Coverage coverage;
+  coverage.begin();
+  for (const std::size_t i : simulation.stage().bumper_sensors) {
+    const SensorSpec& spec = simulation.mission().sensors[i];
+    const double opening = scanner(spec) ? scanner(spec)->fov_deg : std::get<LobeRadarSpec>(spec).azimuth_opening_deg;
+    for (double off = 0.25 - 0.5 * opening; off < 0.5 * opening; off += 0.5) coverage.note(wrap_angle(radians(mounted(spec).yaw_deg + off)));
+  }
+  coverage.finish();
+  double seen = 360.0;
+  for (const Coverage::Gap& gap : coverage.gaps()) seen -= degrees(gap.width) - 0.5;  // a gap is told from the middle of one half degree to that of another
+  return std::round(seen);
+}
+
 void warn_of_stealth(const Simulation& simulation, std::vector<std::string>& warnings) {
   const Mission& mission = simulation.mission();
   const World& world = simulation.stage().scene.world();
-  const Sensor& sensor = *simulation.stage().sensors.front();
+  const Sensor& sensor = deciding_sensor(simulation);
   const Hull hull = mission.vehicle.hull();
   const double ground = mission.start.z_m, plane = ground + sensor.spec().position_m.z;
-  const auto* radar = std::get_if<ScanningRadarSpec>(&mission.sensors.front());
-  const bool looks_along_plane = scanner(mission.sensors.front()) && (!radar || radar->elevation_opening_deg == 0.0);
+  const auto* radar = std::get_if<ScanningRadarSpec>(&deciding_spec(simulation));
+  const bool looks_along_plane = scanner(deciding_spec(simulation)) && (!radar || radar->elevation_opening_deg == 0.0);
   std::map<std::string, std::vector<std::string>> undetected;  // material -> solids
   std::vector<std::string> off_plane;
   for (const Solid& solid : world.solids) {
@@ -42,7 +62,7 @@ void warn_of_stealth(const Simulation& simulation, std::vector<std::string>& war
   for (const auto& [material, solids] : undetected)
     warnings.push_back(fmt::format("{} of material '{}' stop motion but would not be detected by sensor '{}': {}",
                                    name_some(solids), material, sensor.spec().name,
-                                   std::holds_alternative<LidarSpec>(mission.sensors.front()) ? "set the material's stops_light, or use a radar"
+                                   std::holds_alternative<LidarSpec>(deciding_spec(simulation)) ? "set the material's stops_light, or use a radar"
                                                                                                : "raise the material's reflectivity or lower the sensor's detection_floor_db"));
   if (!off_plane.empty())
     warnings.push_back(fmt::format("{} reach into the hull's heights but not, or much less, into the plane of sensor '{}' at z = {:.2f} m: they would not be seen in time; change "
@@ -53,8 +73,8 @@ void warn_of_stealth(const Simulation& simulation, std::vector<std::string>& war
 /// What the sensor that drives the bumpers cannot see in time, whatever it is made of.
 void warn_of_blindness(const Simulation& simulation, std::vector<std::string>& warnings) {
   const Mission& mission = simulation.mission();
-  const MountedSpec& sensor = simulation.stage().sensors.front()->spec();
-  const ScannerSpec* scanning = scanner(mission.sensors.front());
+  const MountedSpec& sensor = deciding_sensor(simulation).spec();
+  const ScannerSpec* scanning = scanner(deciding_spec(simulation));
   const double radius = mission.vehicle.radius_m, press = simulation.bumpers().press_distance();
   const double speed = std::min(mission.vehicle.speed_max_m_s, mission.planner.speed_m_s.value_or(mission.vehicle.speed_max_m_s));
   const double rate = std::min(sensor.rate_hz, 1.0 / mission.step_s);
@@ -65,9 +85,9 @@ void warn_of_blindness(const Simulation& simulation, std::vector<std::string>& w
     warnings.push_back(fmt::format("sensor '{}' sees {} m far, but a bumper must be pressed {:.2f} m from the robot's axis to keep the clearance: make range_max_m longer", sensor.name, sensor.range_max_m, radius + press));
   if (sensor.range_min_m > radius)
     warnings.push_back(fmt::format("sensor '{}' sees nothing nearer than {} m, which is outside the hull: make range_min_m shorter", sensor.name, sensor.range_min_m));
-  const double seen_deg = scanning ? scanning->fov_deg : std::get<LobeRadarSpec>(mission.sensors.front()).azimuth_opening_deg;
+  const double seen_deg = seen_degrees(simulation);
   if (seen_deg < 360.0 && mission.planner.name != "waypoints")
-    warnings.push_back(fmt::format("sensor '{}' sees {} of 360 degrees: the planner '{}' follows boundaries beside and behind it and may run into what it does not see", sensor.name, seen_deg, mission.planner.name));
+    warnings.push_back(fmt::format("what drives the bumpers (sensor '{}') sees {} of 360 degrees: the planner '{}' follows boundaries beside and behind it and may run into what it does not see", sensor.name, seen_deg, mission.planner.name));
   if (speed / rate > mission.planner.clearance_m)
     warnings.push_back(fmt::format("the robot drives {:.2f} m between two scans, more than the clearance of {} m", speed / rate, mission.planner.clearance_m));
   if (!scanning) return;

@@ -36,7 +36,7 @@ std::size_t lines_in(const std::string& text) {
 }  // namespace
 
 TEST_CASE("the presets that are shipped load, each as its own type") {
-  CHECK(sensor_presets() == std::vector<std::string>{"k2pi", "navtech", "urg04lx", "usarsim2012", "utm30lx", "x4m05"});
+  CHECK(sensor_presets() == std::vector<std::string>{"bumpers", "k2pi", "navtech", "urg04lx", "usarsim2012", "utm30lx", "x4m05"});
   for (const std::string& name : sensor_presets()) {
     CAPTURE(name);
     const Reading reading = read("preset = \"" + name + "\"");
