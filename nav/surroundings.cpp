@@ -13,7 +13,7 @@ constexpr double memory = 5.0;       // s
 constexpr double most_weight = 20.0; // of an average: it follows a robot whose own pose drifts
 constexpr double shut_radius = 0.15; // of keep: hidden in the corner that two grown discs make, but for passages that are open by a finger's breadth
 constexpr double borderline = 1.5;   // of keep: discs farther apart than this can be on two sides of a passage that another look finds open
-constexpr double least_radius = 0.88; // of keep: as much narrower a passage may turn out to be than it was when it was found open; a limit, or the robot would creep into every notch
+constexpr double least_radius = 0.93; // of keep: as much narrower a passage may turn out to be than it was when it was found open; a limit, or the robot would creep into every notch
 
 double squared(const glm::dvec2& v) { return v.x * v.x + v.y * v.y; }
 
