@@ -21,6 +21,7 @@ class DistBug final : public Bug {
   /// The way was not as free as it looked: where a wall is seen at a low angle and far away, its echoes are far apart.
   void on_hit() override {
     if (distance_to_goal() > promised_ + pilot().same_place()) view_.trust_less();
+    else view_.trust_more();
     promised_ = INFINITY;
   }
 
