@@ -1,7 +1,6 @@
 // Explorer: from the start outward in a square spiral, whose arms are 1, 1, 2, 2, 3, 3 ... lanes long; for where there is no border. Where an arm is blocked it goes on to the end of
-// the next one; when it gets nowhere for two turns of the spiral, there is no outside left.
+// the next one; when all arms of four turns of the spiral are blocked, there is no outside left.
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "explorer.hpp"
 #include "planners.hpp"
@@ -12,20 +11,19 @@ namespace {
 class CenterOut final : public Explorer {
  public:
   CenterOut(const PlannerSpec& spec, const VehicleLimits& vehicle, const Pose2& start)
-      : Explorer(spec, vehicle), yaw_(start.yaw), corner_(start.position), since_(start.position) {
+      : Explorer(spec, vehicle), yaw_(start.yaw), corner_(start.position) {
     next_arm();
   }
   std::unique_ptr<Planner> clone() const override { return std::make_unique<CenterOut>(*this); }
 
  private:
   Decision drive() override {
-    if (glm::distance(position(), since_) > lane()) {
+    if (pilot().at(corner_)) {
       blocked_ = 0;
-      since_ = position();
+      next_arm();
     }
-    if (pilot().at(corner_)) next_arm();
     for (int i = 0; i < 8 && pilot().blocked_toward(corner_); ++i) {
-      if (++blocked_ > 8) return explored("every arm of the spiral is blocked");
+      if (++blocked_ > 16) return explored("every arm of the spiral is blocked");
       mark("blocked", position());
       next_arm();
     }
@@ -41,9 +39,8 @@ class CenterOut final : public Explorer {
 
   double yaw_;
   std::size_t arm_ = 0;
-  glm::dvec2 corner_;       ///< the end of this arm
-  glm::dvec2 since_;        ///< where it last got on
-  int blocked_ = 0;         ///< arms since then
+  glm::dvec2 corner_;  ///< the end of this arm
+  int blocked_ = 0;    ///< arms in a row
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 // What is free as far as the sensor sees, for a robot of some width. Private to the room.
 #pragma once
 
+#include <algorithm>
+
 #include <glm/vec2.hpp>
 
 #include "thicket/base/pose.hpp"
@@ -18,9 +20,11 @@ class FarView {
   void look(const Pose2& pose, const Contour& contour);
 
   /// How far it sees, m: a beam without an echo tells only that nothing is within the sensor's range, which is at least the farthest echo so far.
-  double sight() const { return trust_ * farthest_; }
-  /// Believes only half as far from now on: a way that was seen free was not.
-  void trust_less() { trust_ = 0.5 * trust_; }
+  double sight() const { return std::max(trust_ * farthest_, std::min(farthest_, 4.0 * radius_)); }
+  /// Believes only half as far from now on, but for what is near: a way that was seen free was not.
+  void trust_less() { trust_ *= 0.5; }
+  /// And twice as far again: one was.
+  void trust_more() { trust_ = std::min(1.0, 2.0 * trust_); }
 
   /// How far the straight way to a point is free, up to the point and to what it sees, m.
   double free_toward(const glm::dvec2& point) const;

@@ -51,6 +51,8 @@ class TangentBug final : public Bug {
     if (place_ && distance_to_goal() > nearest_ - 0.5 * margin()) {  // The way to it was not free after all.
       failed_.push_back(*place_);
       view_.trust_less();
+    } else {
+      view_.trust_more();
     }
     place_.reset();
     if (side_ == 0) better_end();

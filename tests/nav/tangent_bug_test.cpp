@@ -2,46 +2,95 @@
 #include <doctest/doctest.h>
 
 #include "disc_world.hpp"
+#include "far_view.hpp"
 
 namespace thicket {
 namespace {
-const TestSensor sensor{180, 5.0, std::getenv("TRY_S") ? std::atof(std::getenv("TRY_S")) : 0.03};
+
+const TestSensor real{180, 5.0, 0.03};
+
+const LetterMap long_wall{{"............................", "..............#.............", "..............#.............", "..............#.............", "..............#.............",
+                           "S.............#............T", "..............#.............", "..............#.............", "............................"}};
+const LetterMap u_trap{{"......................", "......##########......", "...............#......", "...............#......", "S..............#.....T",
+                        "...............#......", "...............#......", "........########......", "......................"}};
+const LetterMap enclosed{{".....................", "...........########..", "...........#......#..", "S..........#...T..#..", "...........#......#..", "...........########..", "....................."}};
+
+}  // namespace
+
+TEST_CASE("TangentBug passes a long wall by its nearer end without touching it, Bug2 walks along it") {
+  for (const LetterMap& map : {long_wall, long_wall.mirrored()})
+    for (const char* hand : {"left", "right"}) {
+      CAPTURE(hand);
+      const Run tangent = drive(map, "tangent_bug", hand, real), bug2 = drive(map, "bug2", hand, real);
+      CHECK(tangent.last.outcome == Outcome::reached);
+      CHECK(bug2.last.outcome == Outcome::reached);
+      CHECK(tangent.length < 0.97 * bug2.length);
+      CHECK(tangent.length < 1.15 * shortest(map, 0.6));
+      CHECK(tangent.least > 0.3);
+    }
 }
 
-TEST_CASE("random try") {
-  const char* env = std::getenv("TRY_N");
-  const char* names = std::getenv("TRY_P");
-  if (!env) return;
-  const int n = std::atoi(env), first = std::getenv("TRY_0") ? std::atoi(std::getenv("TRY_0")) : 0;
-  const double density = std::getenv("TRY_D") ? std::atof(std::getenv("TRY_D")) : 0.15;
-  int right = 0, wrong = 0, ambiguous = 0, unreachable = 0;
-  double ratio = 0.0;
-  for (int k = first; k < first + n; ++k) {
-    const Random random(7, 0);
-    LetterMap map;
-    map.cell = std::getenv("TRY_C") ? std::atof(std::getenv("TRY_C")) : 1.5;
-    for (int r = 0; r < 14; ++r) {
-      std::string row;
-      for (int c = 0; c < 20; ++c) row += r == 0 || r == 13 || c == 0 || c == 19 || random.uniform(k, r, RandomUse::sampling, c)[0] < density ? '#' : '.';
-      map.rows.push_back(row);
-    }
-    map.rows[11][2] = 'S';
-    map.rows[2][17] = 'T';
-    if (map.clearance(map.find('S'), 1.0) < 0.7 || map.clearance(map.find('T'), 1.0) < 0.7) { ++ambiguous; continue; }
-    const double narrow = shortest(map, 0.6 + 0.12, 0.15), wide = shortest(map, 0.6 - 0.12, 0.15);
-    if (std::isfinite(narrow) != std::isfinite(wide) || (std::isinf(wide) && map.matter(int(map.find('S').x / map.cell) + 1, 2) && map.matter(int(map.find('S').x / map.cell), 3) && map.matter(1, 2) && map.matter(2, 1))) { ++ambiguous; continue; }
-    const Run run = drive(map, names, k % 2 ? "left" : "right", sensor);
-    const bool ok = run.last.outcome == (std::isfinite(narrow) ? Outcome::reached : Outcome::unreachable);
-    if (!std::isfinite(narrow)) ++unreachable;
-    if (ok) { ++right; if (std::isfinite(narrow)) ratio += run.length / wide; }
-    else {
-      ++wrong;
-      MESSAGE(names, " ", k, " shortest ", narrow, " length ", run.length, " hits ", count(run.marks, "hit"), " ", run.last.state, " ", run.last.reason);
-      if (std::getenv("TRY_MAP")) for (auto& m : run.marks) MESSAGE(m.label, " ", m.from.x, " ", m.from.y, " d ", glm::distance(m.from, map.find('T')));
-      if (std::getenv("TRY_MAP")) for (auto& row : map.rows) MESSAGE(row);
-    }
-    if (run.least < 0.2) MESSAGE(k, " least ", run.least);
+TEST_CASE("TangentBug goes straight past a disc along its tangent") {
+  for (const double off : {0.5, -0.5}) {
+    const Run run = drive({Disc{{5.0, off}, 1.0}}, to(10.0, 0.0, "tangent_bug", "left"));
+    CHECK(run.last.outcome == Outcome::reached);
+    CHECK(run.length < 10.6);
+    CHECK(run.side * off < 0.0);  // on the short side, whatever the hand
+    CHECK(count(run.marks, "hit") == 0);
   }
-  MESSAGE(names, " right ", right, " wrong ", wrong, " ambiguous ", ambiguous, " unreachable ", unreachable, " ratio ", ratio / std::max(1, right - unreachable));
 }
+
+TEST_CASE("TangentBug gets out of a U and does not go back into it") {
+  for (const LetterMap& map : {u_trap, u_trap.mirrored()})
+    for (const char* hand : {"left", "right"}) {
+      const Run run = drive(map, "tangent_bug", hand, real);
+      CAPTURE(hand);
+      CHECK(run.last.outcome == Outcome::reached);
+      CHECK(run.length < 3.0 * shortest(map, 0.6));
+      CHECK(count(run.marks, "hit") >= 1);
+      CHECK(count(run.marks, "hit") <= 4);
+      CHECK(count(run.marks, "leave") == count(run.marks, "reach"));
+      CHECK(run.least > 0.25);
+    }
+}
+
+TEST_CASE("TangentBug says that an enclosed goal is unreachable, after a loop") {
+  for (const char* hand : {"left", "right"}) {
+    const Run run = drive(enclosed, "tangent_bug", hand, real);
+    CHECK(run.last.outcome == Outcome::unreachable);
+    CHECK(run.last.reason.find("the whole boundary was walked") != std::string::npos);
+    CHECK(run.length > 24.0);
+    CHECK(run.length < 10.0 + 3.0 * 30.0);
+  }
+}
+
+TEST_CASE("a FarView sees the end of a wall, joins what the robot cannot pass, and trusts no beam farther than it ever saw") {
+  FarView view(0.6);
+  Contour contour;
+  const auto look = [&](const std::vector<Disc>& discs, double range) {
+    see({discs, {}, {}}, {{1.0, 0.0}, 0.5}, {180, range, 0.0}, 0, contour);
+    view.look({{1.0, 0.0}, 0.5}, contour);
+  };
+  look({{{6.0, 0.0}, 1.0}}, 5.0);
+  CHECK(view.sight() == doctest::Approx(4.5).epsilon(0.12));
+  CHECK(view.free_toward({20.0, 0.0}) == doctest::Approx(5.0 - 1.6).epsilon(0.02));
+  CHECK_FALSE(view.is_free({20.0, 0.0}));
+  CHECK(view.is_free({1.0, 20.0}));
+  CHECK(view.free_toward({1.0, 20.0}) == doctest::Approx(view.sight()));
+  const auto left = view.tangent({20.0, 0.0}, +1), right = view.tangent({20.0, 0.0}, -1);
+  REQUIRE(left);
+  REQUIRE(right);
+  CHECK(left->heading == doctest::Approx(-right->heading).epsilon(0.1));
+  CHECK(left->heading == doctest::Approx(std::asin(1.66 / 5.0)).epsilon(0.1));
+  CHECK(view.nearest_place({20.0, 0.0}).distance < 19.0 - 3.5);
+  const double before = view.sight();
+  view.trust_less();
+  CHECK(view.sight() < 0.6 * before);
+  view.trust_more();
+  CHECK(view.sight() == doctest::Approx(before));
+  // two thin poles, 1 m apart, with 1.2 m needed: the way between them ends at a wall
+  look({{{4.0, 0.5}, 0.08}, {{4.0, -0.5}, 0.08}}, 5.0);
+  CHECK(view.free_toward({9.0, 0.0}) < 2.8);
+}
+
 }  // namespace thicket
