@@ -50,6 +50,7 @@ Decision Bug::follow(const char* state) {
   Decision decision{pilot_.follow(hand_), Outcome::running, state, ""};
   if (pilot_.boxed_in()) decision.state = "boxed in: no heading keeps the clearance";
   else decision.state += hand_ == Hand::left ? ", wall on the left hand" : ", wall on the right hand";
+  if (*pilot_.following()) decision.state += fmt::format(" ({})", pilot_.following());
   return decision;
 }
 

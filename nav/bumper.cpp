@@ -99,6 +99,12 @@ void BumperRing::read(const Contour& contour) {
   }
 }
 
+const Bumper& BumperRing::at(double bearing) const {
+  const auto count = static_cast<int>(bumpers_.size());
+  const int sector = static_cast<int>(bearing * (static_cast<double>(count) / (2.0 * pi)) + count + 0.5) % count;
+  return bumpers_[static_cast<std::size_t>(sector)];
+}
+
 bool BumperRing::any_pressed() const {
   return std::any_of(bumpers_.begin(), bumpers_.end(), [](const Bumper& b) { return b.pressed; });
 }

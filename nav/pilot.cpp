@@ -4,9 +4,6 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
-#include <cstdio>
-#include <cstdlib>
-static thread_local double dbg_time_ = 0;
 
 
 namespace thicket {
@@ -34,20 +31,29 @@ Pilot::Pilot(const PlannerSpec& spec, const VehicleLimits& vehicle)
       same_place_(std::max(0.06, 0.12 * keep_)),
       speed_(std::min(vehicle.speed, spec.speed_m_s.value_or(vehicle.speed))),
       goal_tolerance_(spec.goal_tolerance_m),
-      surroundings_(keep_) {
+      surroundings_(keep_),
+      unseen_(2.0 * keep_ + std::max(look_ahead_, speed_ * speed_ / (2.0 * vehicle_.deceleration)), keep_ / 6.0, 10.0) {
+  if (spec.follower == "rules2012") rules_.emplace(vehicle_, speed_, spec.clearance_m);
   horizon_ = std::max(2.0 * look_ahead_, 0.5 * speed_ * speed_ / vehicle.deceleration + look_ahead_);
 }
 
 void Pilot::look(const Senses& senses) {
   pose_ = senses.pose;
-  dbg_time_ = senses.time;
   speed_now_ = senses.speed;
   turn_rate_ = senses.turn_rate;
   // The bumpers decide whether there is anything to steer around at all; only then the rays of the scan are looked at one by one.
-  surroundings_.look(senses, std::max(keep_ + look_ahead_, vehicle_.hull_radius + senses.bumpers.press_distance()));
+  senses_ = &senses;
+  unseen_.look(senses.contour, pose_, senses.time);
+  const Contour* contour = &senses.contour;
+  if (unseen_.has_gaps()) {
+    completed_ = senses.contour;
+    unseen_.complete(completed_);
+    contour = &completed_;
+  }
+  surroundings_.look(*contour, senses.bumpers, pose_, senses.time, std::max(keep_ + look_ahead_, vehicle_.hull_radius + senses.bumpers.press_distance()));
   discs_ = surroundings_.discs();
   nearest_ = INFINITY;
-  for (const Disc& disc : discs_)
+  for (const GrownDisc& disc : discs_)
     if (disc.radius > 0.5 * keep_) nearest_ = std::min(nearest_, glm::distance(disc.centre, pose_.position));
 }
 
@@ -122,17 +128,23 @@ Command Pilot::go_to(const glm::dvec2& point) const { return drive(bearing(pose_
 void Pilot::touch_wall_toward(const glm::dvec2& point) {
   const auto way = way_to(point);
   contact_ = way.disc != none ? discs_[way.disc].centre : point;
+  if (rules_) rules_->begin();
 }
 
 bool Pilot::roll_on(Hand hand) {
   const int turn = hand == Hand::left ? +1 : -1;
   if (roll(discs_, contact_, pose_.position, turn, 0.7 * keep_, horizon_ + 0.5 * look_ahead_, path_)) return true;
   // Matter nearer than it should be on all sides, as at a start in a narrow place: then the way out is along the distance that there is.
-  for (Disc& disc : discs_) disc.radius = std::min(disc.radius, glm::distance(disc.centre, pose_.position) - 1e-3);
+  for (GrownDisc& disc : discs_) disc.radius = std::min(disc.radius, glm::distance(disc.centre, pose_.position) - 1e-3);
   return roll(discs_, contact_, pose_.position, turn, 0.7 * keep_, horizon_ + 0.5 * look_ahead_, path_);
 }
 
 Command Pilot::follow(Hand hand) {
+  if (rules_) {
+    const Command command = rules_->follow(*senses_, hand);
+    boxed_in_ = rules_->boxed_in();
+    return command;
+  }
   boxed_in_ = !roll_on(hand);
   if (boxed_in_) return {};
   const auto& points = path_.points;
@@ -159,7 +171,7 @@ Command Pilot::follow(Hand hand) {
   for (std::size_t i = here; i < points.size(); ++i) {
     const double ahead = points[i].along - start;
     if (points[i].corner && i + 1 < points.size()) {
-      const Disc &from = discs_[points[i].disc], &to = discs_[points[i + 1].disc];
+      const GrownDisc &from = discs_[points[i].disc], &to = discs_[points[i + 1].disc];
       if (ahead < 0.5 * look_ahead_) surroundings_.shut(from, to);
       const glm::dvec2 before = points[i].position - from.centre, after = points[i].position - to.centre;
       const double corner = std::acos(std::clamp(glm::dot(before, after) / (glm::length(before) * glm::length(after)), -1.0, 1.0));
@@ -188,11 +200,6 @@ Command Pilot::follow(Hand hand) {
   if (away * heading < -radians(120.0)) heading += away * 2.0 * pi;
   const double reach = std::max(look_ahead_, points[target].along - start);
   const double limit = speed_ * speed_ / vehicle_.deceleration + 1.0;
-  if (getenv("DBG") && std::abs(atof(getenv("DBG")) - dbg_time_) < 0.06) {
-    printf("t %.2f pose %.3f %.3f %.3f here %zu least %.3f target %zu stop %.3f heading %.3f wayout %.3f ahead %.3f contact %.3f %.3f\n", dbg_time_, pose_.position.x, pose_.position.y, pose_.yaw, here, least, target, stop, heading, way_out(wrap_angle(heading), 2.0 * gap_, limit).distance, way_out(0.0, 4.0 * gap_, 3.0).distance, contact_.x, contact_.y);
-    for (auto& q : points) printf("  path %.3f %.3f disc %zu along %.3f %s\n", q.position.x, q.position.y, q.disc, q.along, q.corner ? "corner" : "");
-    for (auto& d : discs_) printf("  disc %.3f %.3f r %.3f d %.3f b %.2f\n", d.centre.x, d.centre.y, d.radius, glm::distance(d.centre, pose_.position), bearing(pose_.to_inner(d.centre)));
-  }
   Command command = drive(heading, std::min(stop + 0.5 * gap_, way_out(wrap_angle(heading), 2.0 * gap_, limit).distance));
   command.speed = std::min(command.speed, reach / turn_time_);
   return command;
@@ -204,6 +211,12 @@ Command Pilot::drive(double heading, double way) const {
   double rate = std::min({vehicle_.turn_rate, 0.8 * std::sqrt(2.0 * vehicle_.turn_acceleration * size), size / (2.0 * vehicle_.decision_period)});
   // Forward: nothing before the robot faces within 60 degrees of its way; never faster than it can brake, on its way and on the heading it has now.
   const double facing = size < 0.5 * pi ? std::max(0.0, 2.0 * std::cos(error) - 1.0) : 0.0;
+  // Where nothing has looked lately, it looks first.
+  if (facing > 0.0 && unseen_.has_gaps()) {
+    const double braking = speed_now_ * speed_now_ / (2.0 * vehicle_.deceleration) + speed_now_ * vehicle_.decision_period;
+    if (const auto turn = unseen_.turn_to_see(heading, 0.5 * (vehicle_.hull_radius + keep_), vehicle_.hull_radius, std::min(way, std::max(look_ahead_, braking))))
+      return {0.0, std::copysign(std::min(vehicle_.turn_rate, std::max(0.2, std::abs(*turn) / (2.0 * vehicle_.decision_period))), *turn)};
+  }
   // Turning round, first stop: the arc of a robot that is still rolling leads to where nobody has looked.
   if (facing == 0.0) rate *= std::clamp(1.0 - (speed_now_ - 0.2 * look_ahead_) / (0.4 * look_ahead_), 0.0, 1.0);
   const double ahead = way_out(0.0, 4.0 * gap_, way + 1.0).distance;

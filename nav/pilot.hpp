@@ -1,11 +1,15 @@
 // The robot's handling, shared by all planners: drive to a point, follow a boundary. Private to the room.
 #pragma once
 
+#include <optional>
+
 #include <glm/vec2.hpp>
 
 #include "rolling.hpp"
+#include "rules2012.hpp"
 #include "surroundings.hpp"
 #include "thicket/nav/planner.hpp"
+#include "unseen.hpp"
 
 namespace thicket {
 
@@ -17,7 +21,7 @@ class Pilot {
  public:
   Pilot(const PlannerSpec& spec, const VehicleLimits& vehicle);
 
-  /// Takes in what is sensed; everything below is about this moment.
+  /// Takes in what is sensed; everything below is about this moment. `senses` must live until the decision is made.
   void look(const Senses& senses);
 
   const Pose2& pose() const { return pose_; }
@@ -39,6 +43,8 @@ class Pilot {
   Command follow(Hand hand);
   /// While following: there is no place to go at all.
   bool boxed_in() const { return boxed_in_; }
+  /// What the follower does, in words; may be empty.
+  const char* following() const { return rules_ ? rules_->state() : ""; }
 
   /// Two positions count as the same place within this, m.
   double same_place() const { return same_place_; }
@@ -74,8 +80,12 @@ class Pilot {
 
   Pose2 pose_;
   double turn_rate_ = 0.0, speed_now_ = 0.0, nearest_ = 0.0;
+  const Senses* senses_ = nullptr;  ///< while a decision is made
   Surroundings surroundings_;
-  std::vector<Disc> discs_;  ///< as now, in the frame of the pose
+  Unseen unseen_;                   ///< what was seen lately, of a robot whose sensors leave gaps
+  Contour completed_;               ///< the contour with that
+  std::optional<Rules2012> rules_;  ///< instead of the boundary of the grown obstacles
+  std::vector<GrownDisc> discs_;  ///< as now, in the frame of the pose
   BoundaryPath path_;
 };
 

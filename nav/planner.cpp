@@ -82,6 +82,7 @@ const Section& planner_section() {
           .key("clearance_privileged", &S::clearance_privileged, "told of a run whose clearance_m was computed from the world: such a mission leaves it in its mission.toml")
           .key("goal_tolerance_m", &S::goal_tolerance_m, "m", above_up_to(0.0, 1e3), "the goal is reached within this")
           .key("speed_m_s", &S::speed_m_s, "m/s", above_up_to(0.0, 1e3), "cruising speed; not given: the vehicle's own")
+          .choice("follower", &S::follower, {"contour", "rules2012"}, "how a boundary is followed: contour: at the clearance from all that is seen; rules2012: by the rules of the 2012 text, on pressed bumpers alone (for comparison)")
           .key("explore_m", &S::explore_m, "m", above_up_to(0.0, 1e9), "the explorers end when they have driven this far");
   return section;
 }

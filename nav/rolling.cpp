@@ -21,7 +21,7 @@ double angle_order(const glm::dvec2& from, const glm::dvec2& to, int turn) {
 }
 
 /// Where disc `i`'s circle, walked in the sense of the turn, enters disc `j`: the direction of it from the centre of `i`. Nothing if it does not.
-std::optional<glm::dvec2> entry(const Disc& i, const Disc& j, int turn) {
+std::optional<glm::dvec2> entry(const GrownDisc& i, const GrownDisc& j, int turn) {
   const glm::dvec2 d = j.centre - i.centre;
   const double square = squared(d), sum = i.radius + j.radius;
   if (square >= sum * sum || square == 0.0) return std::nullopt;
@@ -34,7 +34,7 @@ std::optional<glm::dvec2> entry(const Disc& i, const Disc& j, int turn) {
 }
 
 /// The direction on disc `i`'s circle nearest to `from` that no other disc covers.
-std::optional<glm::dvec2> nearest_free(const std::vector<Disc>& discs, std::size_t i, const glm::dvec2& from, int turn) {
+std::optional<glm::dvec2> nearest_free(const std::vector<GrownDisc>& discs, std::size_t i, const glm::dvec2& from, int turn) {
   struct Covered {
     double low, high;  // angles from `from`, counter-clockwise
   };
@@ -74,7 +74,7 @@ std::optional<glm::dvec2> nearest_free(const std::vector<Disc>& discs, std::size
 
 }  // namespace
 
-bool roll(const std::vector<Disc>& discs, const glm::dvec2& contact, const glm::dvec2& robot, int turn, double near, double length, BoundaryPath& path) {
+bool roll(const std::vector<GrownDisc>& discs, const glm::dvec2& contact, const glm::dvec2& robot, int turn, double near, double length, BoundaryPath& path) {
   path.points.clear();
   // Of the discs about the contact, nearest to the robot first: the free place nearest to it. (What lies a little behind its neighbours has none, nor has a place deep in a corner.)
   std::vector<std::pair<double, std::size_t>> near_discs;
@@ -102,7 +102,7 @@ bool roll(const std::vector<Disc>& discs, const glm::dvec2& contact, const glm::
   constexpr double step = 0.12;  // rad
   const double c = std::cos(step), s = turn * std::sin(step);
   for (int pieces = 0; pieces < 400 && along < length; ++pieces) {
-    const Disc& disc = discs[pivot];
+    const GrownDisc& disc = discs[pivot];
     std::size_t next = discs.size();
     double first = 4.0;
     glm::dvec2 corner{0.0, 0.0};

@@ -23,6 +23,6 @@ struct BoundaryPath {
 
 /// Rolls from the place of the boundary that is nearest to `robot` on the side of `contact` (the last known point of matter under the hand), counter-clockwise
 /// about the matter (`turn` > 0, matter on the left) or clockwise, for `length` metres. False if no disc is near the contact, or if no part of its circle is free.
-bool roll(const std::vector<Disc>& discs, const glm::dvec2& contact, const glm::dvec2& robot, int turn, double near, double length, BoundaryPath& path);
+bool roll(const std::vector<GrownDisc>& discs, const glm::dvec2& contact, const glm::dvec2& robot, int turn, double near, double length, BoundaryPath& path);
 
 }  // namespace thicket

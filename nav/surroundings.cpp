@@ -84,22 +84,24 @@ void Surroundings::forget(double time, const glm::dvec2& robot) {
   }
 }
 
-void Surroundings::look(const Senses& senses, double reach) {
-  const glm::dvec2& robot = senses.pose.position;
-  forget(senses.time, robot);
-  const double c = std::cos(senses.pose.yaw), s = std::sin(senses.pose.yaw);
-  if (senses.bumpers.any_pressed())
-    for (const ContourPoint& point : senses.contour) {
-      if (!(point.distance <= reach)) continue;
-      take(robot + glm::dvec2(c * point.position.x - s * point.position.y, s * point.position.x + c * point.position.y), senses.time);
-    }
+void Surroundings::look(const Contour& contour, const BumperRing& bumpers, const Pose2& pose, double time, double reach) {
+  const glm::dvec2& robot = pose.position;
+  forget(time, robot);
   discs_.clear();
+  const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
+  if (bumpers.any_pressed())
+    for (const ContourPoint& point : contour) {
+      if (!(point.distance <= reach) || !bumpers.at(point.bearing).pressed) continue;
+      const glm::dvec2 at = robot + glm::dvec2(c * point.position.x - s * point.position.y, s * point.position.x + c * point.position.y);
+      if (point.arc == no_arc) take(at, time);
+      else discs_.push_back({at, keep_});
+    }
   for (const Place& place : matter_)
     if (squared(place.position - robot) < reach * reach && !stray(place)) discs_.push_back({place.position, keep_});
   note_squeeze(robot);
   for (const glm::dvec2& place : been_) {
     if (squared(place - robot) > 4.0 * reach * reach) continue;
-    for (Disc& disc : discs_) disc.radius = std::min(disc.radius, std::max(least_radius * keep_, glm::distance(place, disc.centre) - 0.01 * keep_));
+    for (GrownDisc& disc : discs_) disc.radius = std::min(disc.radius, std::max(least_radius * keep_, glm::distance(place, disc.centre) - 0.01 * keep_));
   }
   for (const glm::dvec2& gate : shut_)
     if (squared(gate - robot) < reach * reach) discs_.push_back({gate, shut_radius * keep_});
@@ -128,7 +130,7 @@ void Surroundings::note_squeeze(const glm::dvec2& robot) {
   been_.push_back(robot);
 }
 
-void Surroundings::shut(const Disc& a, const Disc& b) {
+void Surroundings::shut(const GrownDisc& a, const GrownDisc& b) {
   if (glm::distance(a.centre, b.centre) < borderline * keep_ || a.radius < 0.5 * keep_ || b.radius < 0.5 * keep_) return;
   const glm::dvec2 middle = 0.5 * (a.centre + b.centre);
   for (const glm::dvec2& gate : shut_)

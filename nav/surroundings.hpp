@@ -13,7 +13,7 @@
 namespace thicket {
 
 /// A place of matter grown by the distance that the robot's axis keeps from it; in the frame of the robot's own pose estimate.
-struct Disc {
+struct GrownDisc {
   glm::dvec2 centre{0.0, 0.0};
   double radius = 0.0;
 };
@@ -28,14 +28,15 @@ class Surroundings {
   /// `keep`: distance of the robot's axis from matter, m.
   explicit Surroundings(double keep);
 
-  /// Takes in the contour points of pressed bumpers that are within `reach` of the robot's axis, and makes `discs`.
-  void look(const Senses& senses, double reach);
+  /// Takes in the contour points (in the frame of `pose`) of pressed bumpers that are within `reach` of the robot's axis, and makes `discs`. Points of an arc, of which
+  /// only one is matter, are not remembered.
+  void look(const Contour& contour, const BumperRing& bumpers, const Pose2& pose, double time, double reach);
 
   /// Within reach and a little more. Radius `keep`, less where the robot has been closer in a passage; small where a passage is shut.
-  const std::vector<Disc>& discs() const { return discs_; }
+  const std::vector<GrownDisc>& discs() const { return discs_; }
 
   /// The passage between two discs was taken for a wall; it will be from now on. No effect on passages far too narrow, for which that goes without saying.
-  void shut(const Disc& a, const Disc& b);
+  void shut(const GrownDisc& a, const GrownDisc& b);
 
  private:
   /// A place of matter, averaged over the times it was seen.
@@ -62,7 +63,7 @@ class Surroundings {
   std::vector<std::uint16_t> next_;    ///< of each place, the next of the same cell
   std::vector<glm::dvec2> been_;       ///< narrow places that the robot has been at
   std::vector<glm::dvec2> shut_;       ///< middles of passages that are taken for walls
-  std::vector<Disc> discs_;
+  std::vector<GrownDisc> discs_;
 };
 
 }  // namespace thicket

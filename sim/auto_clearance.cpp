@@ -68,7 +68,7 @@ std::optional<double> largest(double most, const std::function<bool(double)>& ho
 double auto_clearance(const Mission& mission, const World& world) {
   const double length = std::numbers::sqrt2 * mission.vehicle.radius_m, most = 3.0 * length, least = 0.01 * mission.vehicle.radius_m;
   std::vector<glm::dvec2> stops = {{mission.start.x_m, mission.start.y_m}};
-  if (mission.planner.name == "waypoints") stops.insert(stops.end(), mission.planner.waypoints_m.begin(), mission.planner.waypoints_m.end());
+  if (planner_needs(mission.planner.name) == PlannerNeeds::waypoints) stops.insert(stops.end(), mission.planner.waypoints_m.begin(), mission.planner.waypoints_m.end());
   else if (mission.planner.goal_m) stops.push_back(*mission.planner.goal_m);
   const Judge judge = make_judge(mission, world, stops, most);
   if (stops.size() > 1) {

@@ -86,7 +86,7 @@ void warn_of_blindness(const Simulation& simulation, std::vector<std::string>& w
   if (sensor.range_min_m > radius)
     warnings.push_back(fmt::format("sensor '{}' sees nothing nearer than {} m, which is outside the hull: make range_min_m shorter", sensor.name, sensor.range_min_m));
   const double seen_deg = seen_degrees(simulation);
-  if (seen_deg < 360.0 && mission.planner.name != "waypoints")
+  if (seen_deg < 360.0 && planner_needs(mission.planner.name) != PlannerNeeds::waypoints)
     warnings.push_back(fmt::format("what drives the bumpers (sensor '{}') sees {} of 360 degrees: the planner '{}' follows boundaries beside and behind it and may run into what it does not see", sensor.name, seen_deg, mission.planner.name));
   if (speed / rate > mission.planner.clearance_m)
     warnings.push_back(fmt::format("the robot drives {:.2f} m between two scans, more than the clearance of {} m", speed / rate, mission.planner.clearance_m));
@@ -121,7 +121,7 @@ std::vector<std::string> mission_warnings(const Simulation& simulation) {
       warnings.push_back(fmt::format("{} is {:.2f} m from '{}', nearer than the clearance of {} m: the planner may not get there", what, there.distance,
                                      simulation.stage().scene.world().solids[there.solid].name, mission.planner.clearance_m));
   };
-  if (mission.planner.name != "waypoints" && mission.planner.goal_m) warn_of_target(*mission.planner.goal_m, "the goal");
+  if (planner_needs(mission.planner.name) == PlannerNeeds::goal && mission.planner.goal_m) warn_of_target(*mission.planner.goal_m, "the goal");
   if (mission.planner.name == "waypoints")
     for (std::size_t i = 0; i < mission.planner.waypoints_m.size(); ++i) warn_of_target(mission.planner.waypoints_m[i], fmt::format("way-point {}", i + 1));
   return warnings;

@@ -103,7 +103,7 @@ void draw_run(Canvas& canvas, const View& view, const Simulation& simulation, co
   const StartSpec& start = simulation.mission().start;
   canvas.disc(view.at({start.x_m, start.y_m}), 6.0, start_ink);
   canvas.text("start", view.at({start.x_m, start.y_m}) + glm::dvec2(9.0, 13.0), 12.0, start_ink);
-  if (const auto& goal = simulation.mission().planner.goal_m; goal && simulation.mission().planner.name != "waypoints") {
+  if (const auto& goal = simulation.mission().planner.goal_m; goal && planner_needs(simulation.mission().planner.name) == PlannerNeeds::goal) {
     canvas.cross(view.at(*goal), 6.0, goal_ink, 3.0);
     canvas.text("goal", view.at(*goal) + glm::dvec2(9.0, 13.0), 12.0, goal_ink);
   }

@@ -177,8 +177,9 @@ std::vector<std::string> sensor_names(const Mission& mission) {
 
 void check_together(const Node& root, const Mission& mission, Faults& faults) {
   const auto place = [&](const char* table) { return root.find(table) ? root.find(table)->place : root.place; };
-  if (mission.planner.name == "waypoints" ? mission.planner.waypoints_m.empty() : !mission.planner.goal_m) {
-    const char* lack = mission.planner.name == "waypoints" ? "way-points: give planner.waypoints_m" : "a goal: give planner.goal_m, or --goal X,Y";
+  const PlannerNeeds needs = planner_needs(mission.planner.name);
+  if ((needs == PlannerNeeds::waypoints && mission.planner.waypoints_m.empty()) || (needs == PlannerNeeds::goal && !mission.planner.goal_m)) {
+    const char* lack = needs == PlannerNeeds::waypoints ? "way-points: give planner.waypoints_m" : "a goal: give planner.goal_m, or --goal X,Y";
     faults.add(place("planner"), fmt::format("the planner '{}' lacks {}", mission.planner.name, lack));
   }
   for (const SensorSpec& sensor : mission.sensors) {

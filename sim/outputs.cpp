@@ -72,7 +72,7 @@ std::string result_json(const Simulation& simulation) {
   json["reason"] = verdict ? verdict->reason : "";
   json["simulated_time_s"] = simulation.time();
   json["path_length_m"] = totals.path_length;
-  if (mission.planner.name != "waypoints" && mission.planner.goal_m) {
+  if (planner_needs(mission.planner.name) == PlannerNeeds::goal && mission.planner.goal_m) {
     const glm::dvec2 start(mission.start.x_m, mission.start.y_m);
     json["straight_distance_m"] = glm::distance(start, *mission.planner.goal_m);
     json["distance_to_goal_m"] = glm::distance(pose.position, *mission.planner.goal_m);

@@ -45,6 +45,8 @@ class BumperRing {
   void read(const Contour& contour);
 
   const std::vector<Bumper>& bumpers() const { return bumpers_; }
+  /// The one that a bearing lies in; rad in [-pi, pi].
+  const Bumper& at(double bearing) const;
   double press_distance() const { return press_distance_; }
   bool any_pressed() const;
   /// The nearest distance of all, from the hull.

@@ -26,6 +26,7 @@ struct PlannerSpec {
   bool clearance_privileged = false;    ///< clearance_m was computed from the world, which a robot could not know
   double goal_tolerance_m = 0.1;
   std::optional<double> speed_m_s;      ///< cruising speed; not given: the vehicle's
+  std::string follower = "contour";     ///< how a boundary is followed: "contour": as a disc rolls along the matter | "rules2012": by the rules of the text, on bumpers alone
   double explore_m = 100.0;             ///< explorers: the distance to drive
 };
 const Section& planner_section();
