@@ -133,10 +133,13 @@ void Pilot::touch_wall_toward(const glm::dvec2& point) {
 
 bool Pilot::roll_on(Hand hand) {
   const int turn = hand == Hand::left ? +1 : -1;
-  if (roll(discs_, contact_, pose_.position, turn, 0.7 * keep_, horizon_ + 0.5 * look_ahead_, path_)) return true;
+  const double length = horizon_ + 0.5 * look_ahead_;
+  if (roll(discs_, contact_, pose_.position, turn, 0.7 * keep_, length, path_)) return true;
+  // No free place about the contact, as where a lobe tells no more than that there is matter somewhere on an arc: then the nearest anywhere.
+  if (roll(discs_, contact_, pose_.position, turn, INFINITY, length, path_)) return true;
   // Matter nearer than it should be on all sides, as at a start in a narrow place: then the way out is along the distance that there is.
   for (GrownDisc& disc : discs_) disc.radius = std::min(disc.radius, glm::distance(disc.centre, pose_.position) - 1e-3);
-  return roll(discs_, contact_, pose_.position, turn, 0.7 * keep_, horizon_ + 0.5 * look_ahead_, path_);
+  return roll(discs_, contact_, pose_.position, turn, 0.7 * keep_, length, path_);
 }
 
 Command Pilot::follow(Hand hand) {

@@ -91,7 +91,7 @@ void Surroundings::look(const Contour& contour, const BumperRing& bumpers, const
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
   if (bumpers.any_pressed())
     for (const ContourPoint& point : contour) {
-      if (!(point.distance <= reach) || !bumpers.at(point.bearing).pressed) continue;
+      if (!(point.distance <= reach) || (point.arc == no_arc && !bumpers.at(point.bearing).pressed)) continue;
       const glm::dvec2 at = robot + glm::dvec2(c * point.position.x - s * point.position.y, s * point.position.x + c * point.position.y);
       if (point.arc == no_arc) take(at, time);
       else discs_.push_back({at, keep_});

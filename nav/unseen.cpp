@@ -111,7 +111,7 @@ void Unseen::complete(Contour& contour) const {
     if (time_ - spot.met > memory_ || spot.met == time_) continue;
     const glm::dvec2 at = pose_.to_inner(spot.matter);
     const double distance = glm::length(at), toward = bearing(at);
-    if (distance <= reach_ && !coverage_.covers(toward)) contour.push_back({at, distance, toward, no_arc});
+    if (distance <= reach_ && !coverage_.covers(toward)) contour.push_back({at, distance, toward, no_arc - 1});
   }
 }
 
