@@ -14,11 +14,12 @@ double distance_to_segment(const glm::dvec2& point, const glm::dvec2& from, cons
   return glm::distance(point, from + t * along);
 }
 
-BoundaryWalk::BoundaryWalk(const Pose2& hit, const glm::dvec2& goal, double same_place, double keep)
+BoundaryWalk::BoundaryWalk(const Pose2& hit, const glm::dvec2& goal, double same_place, double keep, double run_out)
     : hit_(hit.position),
       goal_(goal),
       same_place_(same_place),
       keep_(keep),
+      run_out_(run_out),
       previous_(hit),
       current_(hit),
       closest_(hit.position),
@@ -47,7 +48,7 @@ void BoundaryWalk::advance(const Pose2& pose) {
   if (milestone_.length > 0.0 && rejoins(milestone_)) strayed_ = true;
   if (length_ > std::max(2.0 * milestone_.length, 2.0 * pi * keep_)) milestone_ = {pose, length_, turned_};
   // Short against any boundary (none is shorter than the circle around a point, 2 pi keep), and short enough to lie on the one that was hit.
-  const bool away = length_ > 3.0 * same_place_ && length_ < 1.5 * keep_;
+  const bool away = length_ > 3.0 * same_place_ && length_ < 1.5 * keep_ + run_out_;
   if (away && (track_.empty() || length_ - track_.back().length >= same_place_)) track_.push_back({pose, length_, turned_});
 }
 

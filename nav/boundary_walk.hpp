@@ -18,8 +18,9 @@ namespace thicket {
 class BoundaryWalk {
  public:
   BoundaryWalk() = default;
-  /// `same_place`: two positions are the same within this; `keep`: the distance of the robot's axis from matter, the scale of everything here.
-  BoundaryWalk(const Pose2& hit, const glm::dvec2& goal, double same_place, double keep);
+  /// `same_place`: two positions are the same within this; `keep`: the distance of the robot's axis from matter, the scale of everything here; `run_out`: what it rolls on after the hit before it can
+  /// turn, which may be along the boundary the other way.
+  BoundaryWalk(const Pose2& hit, const glm::dvec2& goal, double same_place, double keep, double run_out = 0.0);
 
   void advance(const Pose2& pose);
 
@@ -50,7 +51,7 @@ class BoundaryWalk {
   bool rejoins(const TrackPoint& point) const;
 
   glm::dvec2 hit_{0.0, 0.0}, goal_{0.0, 0.0};
-  double same_place_ = 0.1, keep_ = 1.0;
+  double same_place_ = 0.1, keep_ = 1.0, run_out_ = 0.0;
   Pose2 previous_, current_;
   double length_ = 0.0, turned_ = 0.0;  ///< since the hit, m and rad
   std::vector<TrackPoint> track_;       ///< the beginning of the walk

@@ -27,11 +27,12 @@ Decision Bug::decide(const Senses& senses) {
     on_hit();
   }
   walk_.advance(pilot_.pose());
+  if (pilot_.wall_is_gone()) return lost("the boundary was not there any more");
   if (walk_.strayed() && !walk_.closed()) return lost("the boundary that was followed did not lead back to where it was hit");
   return on_boundary();
 }
 
-void Bug::begin_walk() { walk_ = BoundaryWalk(pilot_.pose(), goal_, pilot_.same_place(), pilot_.keep()); }
+void Bug::begin_walk() { walk_ = BoundaryWalk(pilot_.pose(), goal_, pilot_.same_place(), pilot_.keep(), pilot_.stopping_distance()); }
 
 bool Bug::leads_away() {
   if (pilot_.open_toward(goal_)) return true;

@@ -92,9 +92,21 @@ Pilot::Way Pilot::way_to(const glm::dvec2& point, double shrink) const { return 
 bool Pilot::blocked_toward(const glm::dvec2& point) const {
   // What is still rolling the other way is turned round first: where it then stands decides.
   if (speed_now_ > gap_ && std::abs(bearing(pose_.to_inner(point))) > radians(60.0)) return false;
-  // By a wider margin than what counts as open: a straight way along a wall must not be open at one glance and blocked at the next.
-  const auto way = way_to(point, 2.0 * gap_);
-  return way.disc != none && way.distance < gap_;
+  const auto way = way_to(point, gap_);
+  if (way.disc == none || way.distance >= gap_) return false;
+  // By a wider margin what is passed by on one side: a straight way along a wall must not be open at one glance and blocked at the next.
+  const glm::dvec2 ahead = glm::normalize(point - pose_.position), to = discs_[way.disc].centre - pose_.position;
+  const auto left = [&ahead](const glm::dvec2& v) { return ahead.x * v.y - ahead.y * v.x > 0.0; };
+  if (glm::dot(ahead, to) > 0.5 * glm::length(to)) return true;
+  for (const GrownDisc& disc : discs_) {
+    const glm::dvec2 other = disc.centre - pose_.position;
+    const double along = glm::dot(ahead, other), across = std::abs(ahead.x * other.y - ahead.y * other.x);
+    if (left(other) != left(to) && along > 0.0 && along < keep_ && across < disc.radius) return true;  // a gap
+  }
+  const double off = bearing(pose_.to_inner(point));
+  if (std::abs(off) < radians(10.0) && way_out(off, 2.0 * gap_, gap_).distance <= 0.0) return true;
+  const auto closer = way_to(point, 2.0 * gap_);
+  return closer.disc != none && closer.distance < gap_;
 }
 
 bool Pilot::open_toward(const glm::dvec2& point) const {
@@ -129,7 +141,7 @@ bool Pilot::blocked_by_other(const glm::dvec2& point) const {
 Command Pilot::go_to(const glm::dvec2& point) const { return drive(bearing(pose_.to_inner(point)), way_to(point, 2.0 * gap_).distance); }
 
 void Pilot::touch_wall_toward(const glm::dvec2& point) {
-  const auto way = way_to(point, 2.0 * gap_);
+  const auto way = way_to(point, gap_);
   contact_ = way.disc != none ? discs_[way.disc].centre : point;
   if (rules_) rules_->begin();
 }
@@ -142,7 +154,7 @@ bool Pilot::roll_on(Hand hand) {
   if (roll(discs_, contact_, pose_.position, turn, INFINITY, length, path_)) return true;
   // Matter nearer than it should be on all sides, as at a start in a narrow place: then the way out is along the distance that there is.
   for (GrownDisc& disc : discs_) disc.radius = std::min(disc.radius, glm::distance(disc.centre, pose_.position) - 1e-3);
-  return roll(discs_, contact_, pose_.position, turn, 0.7 * keep_, length, path_);
+  return roll(discs_, contact_, pose_.position, turn, INFINITY, length, path_);
 }
 
 Command Pilot::follow(Hand hand) {
@@ -150,6 +162,11 @@ Command Pilot::follow(Hand hand) {
     const Command command = rules_->follow(*senses_, hand);
     boxed_in_ = rules_->boxed_in();
     return command;
+  }
+  // What the hand was on is out of sight, as between two lobes: back to where it was.
+  if (discs_.empty()) {
+    boxed_in_ = false;
+    return go_to(contact_);
   }
   boxed_in_ = !roll_on(hand);
   if (boxed_in_) return {};
@@ -219,8 +236,7 @@ Command Pilot::drive(double heading, double way) const {
   const double facing = size < 0.5 * pi ? std::max(0.0, 2.0 * std::cos(error) - 1.0) : 0.0;
   // Where nothing has looked lately, it looks first.
   if (facing > 0.0 && unseen_.has_gaps()) {
-    const double braking = speed_now_ * speed_now_ / (2.0 * vehicle_.deceleration) + speed_now_ * vehicle_.decision_period;
-    if (const auto turn = unseen_.turn_to_see(heading, 0.5 * (vehicle_.hull_radius + keep_), vehicle_.hull_radius, std::min(way, std::max(look_ahead_, braking))))
+    if (const auto turn = unseen_.turn_to_see(heading, 0.5 * (vehicle_.hull_radius + keep_), vehicle_.hull_radius, std::min(way, std::max(look_ahead_, stopping_distance()))))
       return {0.0, std::copysign(std::min(vehicle_.turn_rate, std::max(0.2, std::abs(*turn) / (2.0 * vehicle_.decision_period))), *turn)};
   }
   // Turning round, first stop: the arc of a robot that is still rolling leads to where nobody has looked.

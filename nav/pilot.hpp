@@ -43,9 +43,13 @@ class Pilot {
   Command follow(Hand hand);
   /// While following: there is no place to go at all.
   bool boxed_in() const { return boxed_in_; }
+  /// While following: nothing is near any more, not even where the hand was: what moved away, or what a lobe told was not there.
+  bool wall_is_gone() const { return !rules_ && discs_.empty() && distance_to(contact_) < keep_; }
   /// What the follower does, in words; may be empty.
   const char* following() const { return rules_ ? rules_->state() : ""; }
 
+  /// What it takes to stop from the speed that it has now, m.
+  double stopping_distance() const { return 0.5 * speed_now_ * speed_now_ / vehicle_.deceleration + speed_now_ * vehicle_.decision_period; }
   /// Two positions count as the same place within this, m.
   double same_place() const { return same_place_; }
   /// Distance that the robot's axis keeps from matter, m.

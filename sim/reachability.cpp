@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <iterator>
 #include <list>
 #include <mutex>
@@ -177,15 +178,16 @@ Result<Mission> lean_mission(const std::vector<Override>& changes) {
                                 {"output.map", "false", ""},
                                 {"output.picture", "false", ""},
                                 {"limits.time_s", to_toml(no_time_limit), ""},
-                                {"sensor.position_m", "[0.0, 0.0, 0.2]", ""},
-                                {"sensor.step_deg", "2.0", ""},
-                                {"sensor.range_max_m", "5.0", ""},
-                                {"sensor.first_echo_only", "true", ""}};
+                                {"sensor.preset", "\"bumpers\"", ""}};
   list.insert(list.end(), changes.begin(), changes.end());
   auto mission = read_mission({}, list);
   if (!mission) return mission;
   mission->world.clear();
   mission->world_file.clear();
+  // With another step or range, still a third of a step (radar/presets/bumpers.toml says why).
+  const bool given = std::any_of(changes.begin(), changes.end(), [](const Override& change) { return change.key == "sensor.side_offset_m" || change.key == "sensor.preset"; });
+  if (auto* radar = std::get_if<ScanningRadarSpec>(&mission->sensors.front()); radar && !given)
+    radar->side_offset_m = radar->range_max_m * std::tan(radians(radar->step_deg / 3.0));
   return mission;
 }
 
