@@ -36,22 +36,25 @@ void BoundaryWalk::advance(const Pose2& pose) {
     length_at_closest_ = length_;
   }
   if (closed_) return;
-  for (const TrackPoint& point : track_) {
-    if (!rejoins(point)) continue;
-    closed_ = true;
-    rejoined_ = point.length;
-    return;
+  for (std::size_t i = 0; i < track_.size() && !closed_; ++i) {
+    if (i + 1 == met_ || !rejoins(track_[i])) continue;
+    closed_ = met_ > 0 && i + 1 > met_ && length_ - length_at_met_ < 5.0 * same_place_;
+    rejoined_ = track_[i].length;
+    met_ = i + 1;
+    length_at_met_ = length_;
   }
+  if (closed_) return;
   if (milestone_.length > 0.0 && rejoins(milestone_)) strayed_ = true;
-  if (length_ > std::max(2.0 * milestone_.length, 2.0 * pi * keep_)) milestone_ = {pose.position, length_, turned_};
+  if (length_ > std::max(2.0 * milestone_.length, 2.0 * pi * keep_)) milestone_ = {pose, length_, turned_};
   // Short against any boundary (none is shorter than the circle around a point, 2 pi keep), and short enough to lie on the one that was hit.
   const bool away = length_ > 3.0 * same_place_ && length_ < 1.5 * keep_;
-  if (away && (track_.empty() || length_ - track_.back().length >= same_place_)) track_.push_back({pose.position, length_, turned_});
+  if (away && (track_.empty() || length_ - track_.back().length >= same_place_)) track_.push_back({pose, length_, turned_});
 }
 
 bool BoundaryWalk::rejoins(const TrackPoint& point) const {
-  if (std::abs(std::abs(turned_ - point.turned) - 2.0 * pi) > radians(75.0)) return false;
-  return distance_to_segment(point.position, previous_.position, current_.position) <= same_place_;
+  const bool around = length_ - point.length > 1.6 * pi * keep_ || std::abs(std::abs(turned_ - point.turned) - 2.0 * pi) < radians(75.0);
+  if (!around || std::abs(wrap_angle(current_.yaw - point.pose.yaw)) > radians(75.0)) return false;
+  return distance_to_segment(point.pose.position, previous_.position, current_.position) <= same_place_;
 }
 
 double BoundaryWalk::onward_to_closest() const {

@@ -1,4 +1,4 @@
-// The book-keeping of a walk around an obstacle: how far, how much turned, where closest to the goal, and whether the loop is closed. Private to the room.
+// The book-keeping of a walk around an obstacle: how far, where closest to the goal, and whether the loop is closed. Private to the room.
 #pragma once
 
 #include <vector>
@@ -11,9 +11,10 @@ namespace thicket {
 
 /// Fed with every pose from the hit point on.
 ///
-/// The loop is closed when the robot comes back onto the beginning of its own track, with two witnesses: it is there, and between the two times it has turned
-/// once around (the boundary of an obstacle and that of a room both turn by 2 pi; the far side of a narrow corridor does not). The beginning of the track and not
-/// the hit point alone, because a hit in a notch is not passed again: the robot swings around in it a little differently each time.
+/// The loop is closed when the robot comes back onto the beginning of its own track, with witnesses: it passes two places of it one after the other, heading the same way as then (the far side
+/// of a narrow corridor is near too, but is walked the other way), and it has walked at least the circle around a point, the shortest outside there is, or turned once around, as in a cell that
+/// is smaller than that. The beginning of the track and not the hit point alone, because a hit in a notch is not passed again: the robot swings around in it a little
+/// differently each time. How often it has turned since is no witness for long walks: in a dead end both ways round are as short.
 class BoundaryWalk {
  public:
   BoundaryWalk() = default;
@@ -27,7 +28,7 @@ class BoundaryWalk {
   /// Away from the hit point for the first time since the start, where every test would succeed at once.
   bool armed() const { return !track_.empty(); }
   bool closed() const { return closed_; }
-  /// The walk goes round and round on a boundary that the hit point is not on: a gap just as wide as the robot needs was shut once and open the next time.
+  /// The walk goes round and round on a boundary that the hit point is not on.
   bool strayed() const { return strayed_; }
 
   /// Where on the boundary it was closest to the goal so far.
@@ -43,7 +44,7 @@ class BoundaryWalk {
 
  private:
   struct TrackPoint {
-    glm::dvec2 position{0.0, 0.0};
+    Pose2 pose;
     double length = 0.0, turned = 0.0;
   };
   bool rejoins(const TrackPoint& point) const;
@@ -54,6 +55,8 @@ class BoundaryWalk {
   double length_ = 0.0, turned_ = 0.0;  ///< since the hit, m and rad
   std::vector<TrackPoint> track_;       ///< the beginning of the walk
   TrackPoint milestone_;                ///< a point of the walk, moved on whenever the walk has become twice as long (Brent 1980)
+  std::size_t met_ = 0;                 ///< number of the last place of the track that was met again, from 1 on; 0: none
+  double length_at_met_ = 0.0;
   bool closed_ = false, strayed_ = false;
   double rejoined_ = 0.0;               ///< length at the track point that closed the loop
   glm::dvec2 closest_{0.0, 0.0};

@@ -1,6 +1,7 @@
 // Bug1 (Lumelsky 2006, p. 85): walk once around the obstacle, return the shorter way to the point L that is closest to the goal, leave there. The goal
 // cannot be reached if and only if the way from L to it enters the obstacle at L (p. 89).
 #include <algorithm>
+#include <cmath>
 
 #include "bug.hpp"
 #include "planners.hpp"
@@ -35,7 +36,7 @@ class Bug1 final : public Bug {
 
   void start_return() {
     returning_ = true;
-    last_away_ = 0.0;
+    last_away_ = INFINITY;
     closest_ = walk().closest();
     mark("closest", closest_);
     length_at_return_ = walk().length();

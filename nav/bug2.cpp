@@ -33,7 +33,7 @@ class Bug2 final : public Bug {
     const double before = side(walk().previous()), after = side(walk().current());
     if ((before > 0.0) == (after > 0.0) && std::abs(after) > 0.5 * pilot().same_place()) return false;
     const double along = glm::dot(walk().current() - from, line) / length;
-    return along > 0.0 && distance_to_goal() < length - pilot().same_place() && leads_away();
+    return along > 0.0 && along < length && distance_to_goal() < length - pilot().same_place() && leads_away();
   }
 };
 

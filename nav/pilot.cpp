@@ -87,20 +87,23 @@ Pilot::Way Pilot::way_out(double heading, double shrink, double limit) const {
   return way;
 }
 
-Pilot::Way Pilot::way_to(const glm::dvec2& point) const { return free_way(bearing(pose_.to_inner(point)), gap_, distance_to(point)); }
+Pilot::Way Pilot::way_to(const glm::dvec2& point, double shrink) const { return free_way(bearing(pose_.to_inner(point)), shrink, distance_to(point)); }
 
 bool Pilot::blocked_toward(const glm::dvec2& point) const {
-  const auto way = way_to(point);
+  // What is still rolling the other way is turned round first: where it then stands decides.
+  if (speed_now_ > gap_ && std::abs(bearing(pose_.to_inner(point))) > radians(60.0)) return false;
+  // By a wider margin than what counts as open: a straight way along a wall must not be open at one glance and blocked at the next.
+  const auto way = way_to(point, 2.0 * gap_);
   return way.disc != none && way.distance < gap_;
 }
 
 bool Pilot::open_toward(const glm::dvec2& point) const {
-  const auto way = way_to(point);
+  const auto way = way_to(point, 0.5 * gap_);
   return way.disc == none || way.distance > 2.0 * gap_ + 0.5 * look_ahead_;
 }
 
 bool Pilot::blocked_by_other(const glm::dvec2& point) const {
-  const auto way = way_to(point);
+  const auto way = way_to(point, 0.5 * gap_);
   if (way.disc == none) return false;
   // Grown obstacles that touch are one: from the disc under the hand to all that it hangs together with.
   std::vector<std::size_t> open;
@@ -123,10 +126,10 @@ bool Pilot::blocked_by_other(const glm::dvec2& point) const {
   return true;
 }
 
-Command Pilot::go_to(const glm::dvec2& point) const { return drive(bearing(pose_.to_inner(point)), way_to(point).distance); }
+Command Pilot::go_to(const glm::dvec2& point) const { return drive(bearing(pose_.to_inner(point)), way_to(point, 2.0 * gap_).distance); }
 
 void Pilot::touch_wall_toward(const glm::dvec2& point) {
-  const auto way = way_to(point);
+  const auto way = way_to(point, 2.0 * gap_);
   contact_ = way.disc != none ? discs_[way.disc].centre : point;
   if (rules_) rules_->begin();
 }

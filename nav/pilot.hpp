@@ -61,7 +61,7 @@ class Pilot {
   Way free_way(double heading, double shrink, double limit) const;
   /// The same for discs that are nowhere larger than the distance that the robot has now: what brakes a robot that came too near must not keep it there.
   Way way_out(double heading, double shrink, double limit) const;
-  Way way_to(const glm::dvec2& point) const;
+  Way way_to(const glm::dvec2& point, double shrink) const;
   bool roll_on(Hand hand);
   /// `heading` beyond +-pi turns the long way round.
   Command drive(double heading, double way) const;

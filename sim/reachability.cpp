@@ -117,7 +117,7 @@ Result<std::vector<Attempt>> attempts_at(const Problem& problem, const Mission& 
       const Mission mission = mission_of(lean, problem, judgement, planner, hand);
       auto one = attempt(mission, problem, judgement, (*place)->scene);
       if (!one) return one.error();
-      if (one->score == Score::wrong && !options.keep_failures.empty())
+      if ((one->score == Score::wrong || one->over_bound()) && !options.keep_failures.empty())
         if (const auto kept = keep_failure(options.keep_failures, mission, problem); !kept) return kept.error();
       attempts.push_back(std::move(*one));
     }

@@ -108,7 +108,7 @@ TEST_CASE("matter that comes into a gap is remembered, and forgotten where a bea
   for (const ContourPoint& point : now) {
     CHECK(point.distance == doctest::Approx(0.8).epsilon(0.01));
     CHECK(std::abs(point.bearing - radians(45.0)) < radians(4.0));
-    CHECK(point.arc == no_arc);
+    CHECK(point.arc != no_arc);
   }
   // In view again, and nothing there: it has gone.
   unseen.look(four_lobes(), {}, 0.2);
