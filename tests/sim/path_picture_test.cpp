@@ -89,12 +89,14 @@ TEST_CASE("path picture: matter, the band around it, smoke and free ground are w
   // Bounds of 20 m x 10 m are more than the margin of 1.5 times hull and clearance around the way.
   CHECK(picture.image.width == 932);
   const int matter = picture.grey(0.5, 1.0), band = picture.grey(0.5, 2.25), free = picture.grey(3.0, 3.5), smoke = picture.grey(-5.5, 4.2);
-  CHECK(matter == 64);
+  CHECK(matter == 65);
   CHECK(free == 255);
   CHECK(band < 235);
   CHECK(band > 200);
-  CHECK(smoke < band);
+  // In grey smoke looks like the band; there is none where it is.
+  CHECK(smoke < 235);
   CHECK(smoke > 200);
+  CHECK(picture.grey(-7.5, 4.2) == 255);
   // To two pixels the matter ends at 2 m, the band at 2.5 m.
   const double two = 2.0 / picture.scale();
   CHECK(picture.grey(0.5, 2.0 - two) == matter);
@@ -123,7 +125,8 @@ TEST_CASE("path picture: the way is where it was driven, and not on the other si
       }
     }
     CHECK(driven > 100);
-    CHECK(static_cast<double>(seen) > 0.97 * static_cast<double>(driven));
+    // But for the marks, which are white inside.
+    CHECK(static_cast<double>(seen) > 0.9 * static_cast<double>(driven));
     // The goal is a cross, and the start a disc.
     CHECK(picture.grey(8.0, 0.0) < 120);
     CHECK(picture.grey(-8.0, 0.0) < 40);
