@@ -71,7 +71,7 @@ size_m = [0.2, 3.0, 1.0]
 
   for (const auto& [arguments, words] : {std::pair{"run nowhere", "there is no mission 'nowhere'"}, {"run", "nothing to run"}, {"run foliage_wall/bug2 --goal 1", "--goal is '1', expected X,Y"},
                                          {"run foliage_wall/bug2 --set clearance", "expected KEY=VALUE"}, {"run foliage_wall/bug2 --set planner.clearence_m=2", "did you mean 'clearance_m'"},
-                                         {"run foliage_wall/bug2 --planner bug9", "expected one of 'bug1', 'bug2', 'waypoints'"}, {"run foliage_wall/bug2 --no-such-flag", "--no-such-flag"},
+                                         {"run foliage_wall/bug2 --planner bug9", "expected one of 'bug1', 'bug2', 'bug2_2012'"}, {"run foliage_wall/bug2 --no-such-flag", "--no-such-flag"},
                                          {"run foliage_wall/divided_room", "this is a world and not a mission"}, {"run foliage_wall/bug2 --seed 9223372036854775808", "--seed: 'seed' is a text"}, {"check nowhere.toml", "there is no file"}, {"help nothing", "expected mission or world"}, {"frobnicate", ""}, {"", ""}}) {
     CAPTURE(arguments);
     const Answer answer = call(folder, arguments);
