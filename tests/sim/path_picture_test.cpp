@@ -1,6 +1,7 @@
 // path.png, read back: what is drawn where.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -113,12 +114,16 @@ TEST_CASE("path picture: the way is where it was driven, and not on the other si
     const Picture picture = picture_of(folder, drawn);
     // The left hand on the wall turns right: south of the box.
     const double side = hand == "left" ? -1.0 : 1.0;
-    std::size_t seen = 0, driven = 0;
+    std::size_t seen = 0, driven = 0, following = 0, straight_in_orange = 0, following_in_orange = 0;
     for (const auto& p : drawn.trajectory.points()) {
       const glm::dvec2& at = p.pose.position;
       if (at.x < -6.0 || at.x > 6.0) continue;
       ++driven;
       seen += picture.grey(at.x, at.y) < 180;
+      // The mean of the channels is 98 of the blue of straight ways and 128 of the orange along boundaries.
+      const bool orange = std::abs(picture.grey(at.x, at.y) - 128) < 10, follows = p.state.starts_with("following");
+      following += follows;
+      (follows ? following_in_orange : straight_in_orange) += orange;
       if (std::abs(at.x) < 1.0) {
         CHECK(at.y * side > 2.3);
         CHECK(picture.darkest(at.x, -at.y) >= 200);
@@ -127,6 +132,10 @@ TEST_CASE("path picture: the way is where it was driven, and not on the other si
     CHECK(driven > 100);
     // But for the marks, which are white inside.
     CHECK(static_cast<double>(seen) > 0.9 * static_cast<double>(driven));
+    CHECK(following > 50);
+    CHECK(driven - following > 50);
+    CHECK(static_cast<double>(following_in_orange) > 0.9 * static_cast<double>(following));
+    CHECK(static_cast<double>(straight_in_orange) < 0.1 * static_cast<double>(driven - following));
     // The goal is a cross, and the start a disc.
     CHECK(picture.grey(8.0, 0.0) < 120);
     CHECK(picture.grey(-8.0, 0.0) < 40);
