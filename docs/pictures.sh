@@ -64,6 +64,7 @@ fi
 if [[ ${1:-all} == all || $1 == bugs ]]; then
   mkdir -p -- docs/pictures/bugs
   for mission in bug{1,2}_{success,failure} bug2_2012_{wrong,right} two_combs_bug{1,2} comb_bug{1,2}; do path "bugs/$mission" "$mission"; done
+  path bugs/bug2_success drift --set odometry.turn_scale=1.01 --set odometry.speed_noise_m_s=0.1 --set odometry.turn_noise_rad_s=0.05
   for mission in wall_then_inside bounce center_out explore; do path "explorers/$mission" "$mission"; done
   for problem in convex,2 spiral,2 maze,0 comb,0 enclosed,2 goal,2 m_line,0 thin,4 twins,1 random,4; do family "${problem%,*}" "${problem#*,}"; done
 fi

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <string_view>
+#include <utility>
 
 #include <glm/common.hpp>
 
@@ -19,7 +20,7 @@ namespace {
 
 // Colours of the way as in Okabe and Ito's palette, which people who confuse colours can tell apart.
 constexpr Colour ink{0.1, 0.1, 0.12}, matter_ink{0.24, 0.25, 0.27}, band_ink{0.91, 0.89, 0.82}, passable_ink{0.80, 0.84, 0.90}, free_ink{1.0, 1.0, 1.0}, start_ink{0.0, 0.0, 0.0},
-    goal_ink{0.80, 0.0, 0.35}, line_ink{0.3, 0.3, 0.35, 0.9}, believed_ink{0.45, 0.45, 0.5};
+    goal_ink{0.80, 0.0, 0.35}, line_ink{0.3, 0.3, 0.35, 0.9}, believed_ink{0.72, 0.30, 0.55};
 
 /// What a robot does, told by its planner's words.
 struct Doing {
@@ -126,7 +127,8 @@ class Labels {
     Box best;
     double least = INFINITY;
     for (const double away : {9.0, 16.0, 26.0})
-      for (const glm::dvec2 toward : {glm::dvec2(1, -0.7), glm::dvec2(1, 0.7), glm::dvec2(-1, -0.7), glm::dvec2(-1, 0.7), glm::dvec2(0, -1.2), glm::dvec2(0, 1.2), glm::dvec2(1, 0), glm::dvec2(-1, 0)}) {
+      for (const auto& [x, y] : {std::pair(1.0, -0.7), {1.0, 0.7}, {-1.0, -0.7}, {-1.0, 0.7}, {0.0, -1.2}, {0.0, 1.2}, {1.0, 0.0}, {-1.0, 0.0}}) {
+        const glm::dvec2 toward(x, y);
         const glm::dvec2 middle = at + toward * away + glm::dvec2(toward.x * 0.5 * width, toward.y * 0.3 * size);
         const Box box{middle - glm::dvec2(0.5 * width + 2.0, 0.6 * size), middle + glm::dvec2(0.5 * width + 2.0, 0.6 * size)};
         if (const double cost = cost_of(box) + 0.2 * away; cost < least) least = cost, best = box;
@@ -227,7 +229,7 @@ void draw_run(Canvas& canvas, const PictureFrame& view, const Simulation& simula
 struct Entry {
   std::string words;
   Colour colour;
-  double width = 0.0;  ///< of a line; 0: an area
+  double width = 0.0;  ///< of a line, which may be dashed; 0: an area
   bool dashed = false;
 };
 /// In rows as wide as the picture; returns the height that they take. Nothing is drawn without a canvas.
@@ -250,9 +252,11 @@ double draw_legend(Canvas& measure, Canvas* canvas, const std::vector<Entry>& en
 std::vector<Entry> legend_of(const Simulation& simulation, const Trajectory& trajectory) {
   const World& world = simulation.scene().world();
   std::vector<Entry> entries = {{"matter", matter_ink}, {fmt::format("nearer to it than hull + {:.4g} m", simulation.mission().planner.clearance_m), band_ink}};
-  if (std::any_of(world.solids.begin(), world.solids.end(), [&](const Solid& solid) { return !world.materials[solid.material].stops_motion; })) entries.push_back({"lets robots pass", passable_ink});
+  if (std::any_of(world.solids.begin(), world.solids.end(), [&](const Solid& solid) { return !world.materials[solid.material].stops_motion; }))
+    entries.push_back({"lets robots pass", passable_ink});
   for (std::size_t i = 0; i < doings.size(); ++i)
-    if (std::any_of(trajectory.points().begin(), trajectory.points().end(), [i](const TrajectoryPoint& p) { return doing_of(p.state) == i; })) entries.push_back({doings[i].words, doings[i].colour, doings[i].width});
+    if (std::any_of(trajectory.points().begin(), trajectory.points().end(), [i](const TrajectoryPoint& p) { return doing_of(p.state) == i; }))
+      entries.push_back({doings[i].words, doings[i].colour, doings[i].width});
   for (const Mark& mark : simulation.marks())
     if (mark.kind == Mark::Kind::segment && std::none_of(entries.begin(), entries.end(), [&](const Entry& e) { return e.words == mark.label; })) entries.push_back({mark.label, line_ink, 1.4, true});
   if (!simulation.mission().odometry.perfect()) entries.push_back({"where it believed to be", believed_ink, 1.6, true});
@@ -280,16 +284,13 @@ Result<Done> write_path_picture(const std::filesystem::path& file, const Simulat
     if (mark.kind == Mark::Kind::segment) canvas.polyline({view.at(mark.from), view.at(mark.to)}, line_ink, 1.4, true);
   Labels labels(canvas, view, trajectory);
   draw_way(canvas, view, trajectory);
-  if (!simulation.mission().odometry.perfect()) {
-    std::vector<glm::dvec2> believed;
-    for (const auto& p : trajectory.points()) believed.push_back(view.at(p.estimate.position));
-    canvas.polyline(believed, believed_ink, 1.6, true);
-  }
+  std::vector<glm::dvec2> believed;
+  for (const auto& p : trajectory.points()) believed.push_back(view.at(p.estimate.position));
+  if (!simulation.mission().odometry.perfect()) canvas.polyline(believed, believed_ink, 1.6, true);
   draw_run(canvas, view, simulation, labels);
   canvas.unclip();
   canvas.frame(corner, size, ink, 1.0);
-  const double legend_height = draw_legend(canvas, &canvas, legend, width, below), bar = scale_bar_length(view.high.x - view.low.x);
-  const double y = below + legend_height + 6.0;
+  const double y = below + draw_legend(canvas, &canvas, legend, width, below) + 6.0, bar = scale_bar_length(view.high.x - view.low.x);
   canvas.polyline({{PictureFrame::margin, y}, {PictureFrame::margin + bar * view.scale, y}}, ink, 4.0);
   canvas.text(fmt::format("{} m", bar), {PictureFrame::margin + bar * view.scale + 8.0, y + 5.0}, 13.0, ink);
   return canvas.write(file);
