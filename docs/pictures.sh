@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes every picture of the docs anew, with the program; or those of one kind: maps, radar, worlds.
+# Makes every picture of the docs anew, with the program; or those of one kind: bugs, maps, radar, worlds.
 set -euo pipefail
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 program=${THICKET_PROGRAM:-$root/thicket}
@@ -10,6 +10,17 @@ trap 'rm -rf -- "$runs"' EXIT
 map() {
   "$program" run "$1" --out "$runs/run" --quiet || [[ $? == 3 ]] # closed: there is no way
   cp -- "$runs/run/map.png" "$root/docs/pictures/${2:-${1##*/}}.png"
+}
+# Ways of runs, of a file and under a name, and how long they are.
+path() {
+  "$program" run "$1" --out "$runs/run" --quiet "${@:3}" || [[ $? == 3 ]]
+  cp -- "$runs/run/path.png" "$root/docs/pictures/bugs/$2.png"
+  printf '%-28s %s\n' "$2" "$(awk -F '[:,] *' '/"verdict"|"path_length_m"/ { printf "%s ", $2 }' "$runs/run/result.json")"
+}
+# A problem of a family. A run that is stopped at once is wrong, and kept as a mission.
+family() {
+  "$program" reachability --families "$1" --first "$2" --problems 1 --planners bug2 --time-limit 0.1 --quiet --keep-failures "$runs/families" > "$runs/log" || [[ $? == 6 ]]
+  path "$runs/families/$1-$2"-bug2-*.toml "family_$1" --set limits.time_s=3600
 }
 # Worlds as they look: the solids, each from where it is seen best, and the thicket.
 look() {
@@ -49,6 +60,13 @@ if [[ ${1:-all} == all || $1 == maps ]]; then
   for mission in foliage_wall/{bug1,bug2,closed,smoke,map_radar,map_lidar} rooms/{convex,u,spiral}; do map "$mission"; done
   map thicket/look_through thicket_radar
   map thicket/look_through_lidar thicket_lidar
+fi
+if [[ ${1:-all} == all || $1 == bugs ]]; then
+  mkdir -p -- docs/pictures/bugs
+  for mission in bug{1,2}_{success,failure} bug2_2012_{wrong,right} two_combs_bug{1,2} comb_bug{1,2}; do path "bugs/$mission" "$mission"; done
+  path bugs/bug2_success drift --set odometry.turn_scale=1.01 --set odometry.speed_noise_m_s=0.1 --set odometry.turn_noise_rad_s=0.05
+  for mission in wall_then_inside bounce center_out explore; do path "explorers/$mission" "$mission"; done
+  for problem in convex,2 spiral,2 maze,0 comb,0 enclosed,2 goal,2 m_line,0 thin,4 twins,1 random,4; do family "${problem%,*}" "${problem#*,}"; done
 fi
 [[ ${1:-all} == all || $1 == worlds ]] || exit 0
 mkdir -p -- "$root/docs/pictures/worlds"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "canvas.hpp"
+#include "picture_view.hpp"
 #include "thicket/sim/outputs.hpp"
 
 namespace thicket {
@@ -31,21 +32,9 @@ std::uint32_t pixel_of(const OccupancyMap& map, const CellIndex& cell) {
   return map.surely_free(cell) ? clear_ink.pixel : sensed_ink.pixel;
 }
 
-/// The part of the world that is shown: the map, the path, the goal and the world's stated bounds.
-struct View {
-  glm::dvec2 low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
-  double scale = 10.0;  ///< pixels per metre
-  static constexpr double margin = 16.0, header = 34.0;
-
-  void hold(const glm::dvec2& p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  glm::dvec2 at(const glm::dvec2& p) const { return {margin + (p.x - low.x) * scale, header + margin + (high.y - p.y) * scale}; }
-};
-
-View fit(const Simulation& simulation, const Trajectory& trajectory) {
-  View view;
+/// Shows the map, the path, the goal and the world's stated bounds.
+PictureFrame fit(const Simulation& simulation, const Trajectory& trajectory) {
+  PictureFrame view;
   const OccupancyMap& map = simulation.map();
   const double cell = map.resolution();
   if (const auto extent = map.extent()) {
@@ -71,7 +60,7 @@ View fit(const Simulation& simulation, const Trajectory& trajectory) {
   return view;
 }
 
-void draw_map(Canvas& canvas, const View& view, const OccupancyMap& map) {
+void draw_map(Canvas& canvas, const PictureFrame& view, const OccupancyMap& map) {
   const double cell = map.resolution();
   const auto first_column = std::llround(view.low.x / cell), first_row = std::llround(view.low.y / cell);
   const auto columns = static_cast<int>(std::llround(view.high.x / cell) - first_column), rows = static_cast<int>(std::llround(view.high.y / cell) - first_row);
@@ -83,7 +72,7 @@ void draw_map(Canvas& canvas, const View& view, const OccupancyMap& map) {
   canvas.image(pixels, (columns + every - 1) / every, (rows + every - 1) / every, view.at({view.low.x, view.high.y}), view.scale * cell * every);
 }
 
-void draw_run(Canvas& canvas, const View& view, const Simulation& simulation, const Trajectory& trajectory) {
+void draw_run(Canvas& canvas, const PictureFrame& view, const Simulation& simulation, const Trajectory& trajectory) {
   for (const Mark& mark : simulation.marks())
     if (mark.kind == Mark::Kind::segment) canvas.polyline({view.at(mark.from), view.at(mark.to)}, line_ink, 1.2, true);
   std::vector<glm::dvec2> path;
@@ -109,16 +98,8 @@ void draw_run(Canvas& canvas, const View& view, const Simulation& simulation, co
   }
 }
 
-/// A round length of about a fifth of the picture.
-double scale_bar_length(double width_m) {
-  const double wanted = width_m / 5.0, power = std::pow(10.0, std::floor(std::log10(wanted)));
-  for (const double step : {5.0, 2.0})
-    if (wanted >= step * power) return step * power;
-  return power;
-}
-
-void draw_legend(Canvas& canvas, const View& view, double top) {
-  double x = View::margin;
+void draw_legend(Canvas& canvas, const PictureFrame& view, double top) {
+  double x = PictureFrame::margin;
   for (const Ink& entry : {unknown_ink, sensed_ink, clear_ink, through_ink, obstacle_ink}) {
     canvas.rectangle({x, top}, {16.0, 16.0}, colour_of(entry.pixel));
     canvas.frame({x, top}, {16.0, 16.0}, ink, 1.0);
@@ -126,25 +107,25 @@ void draw_legend(Canvas& canvas, const View& view, double top) {
     x += 22.0 + canvas.text_width(entry.words, 13.0) + 18.0;
   }
   const double length = scale_bar_length(view.high.x - view.low.x);
-  canvas.polyline({{View::margin, top + 36.0}, {View::margin + length * view.scale, top + 36.0}}, ink, 4.0);
-  canvas.text(fmt::format("{} m", length), {View::margin + length * view.scale + 8.0, top + 41.0}, 13.0, ink);
+  canvas.polyline({{PictureFrame::margin, top + 36.0}, {PictureFrame::margin + length * view.scale, top + 36.0}}, ink, 4.0);
+  canvas.text(fmt::format("{} m", length), {PictureFrame::margin + length * view.scale + 8.0, top + 41.0}, 13.0, ink);
 }
 
 }  // namespace
 
 Result<Done> write_map_picture(const std::filesystem::path& file, const Simulation& simulation, const Trajectory& trajectory) {
-  const View view = fit(simulation, trajectory);
+  const PictureFrame view = fit(simulation, trajectory);
   const glm::dvec2 size = (view.high - view.low) * view.scale;
-  const double width = std::max(size.x, 620.0) + 2.0 * View::margin, height = View::header + size.y + 2.0 * View::margin + 56.0;
+  const double width = std::max(size.x, 620.0) + 2.0 * PictureFrame::margin, height = PictureFrame::header + size.y + 2.0 * PictureFrame::margin + 56.0;
   Canvas canvas(static_cast<int>(std::ceil(width)), static_cast<int>(std::ceil(height)), {0.965, 0.965, 0.955});
   const auto& verdict = simulation.verdict();
   canvas.text(fmt::format("{}: {} after {:.1f} s and {:.1f} m", simulation.mission().name, verdict ? to_string(verdict->kind) : "running", simulation.time(),
                           simulation.totals().path_length),
-              {View::margin, 28.0}, 16.0, ink);
+              {PictureFrame::margin, 28.0}, 16.0, ink);
   draw_map(canvas, view, simulation.map());
   draw_run(canvas, view, simulation, trajectory);
   canvas.frame(view.at({view.low.x, view.high.y}), size, ink, 1.0);
-  draw_legend(canvas, view, View::header + size.y + 2.0 * View::margin);
+  draw_legend(canvas, view, PictureFrame::header + size.y + 2.0 * PictureFrame::margin);
   return canvas.write(file);
 }
 

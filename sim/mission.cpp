@@ -52,7 +52,8 @@ const Section& output_section() {
       SectionOf<S>("[output]", "which files a run leaves, beside result.json, timing.json and mission.toml")
           .key("trajectory", &S::trajectory, "trajectory.csv and trajectory.tum")
           .key("map", &S::map, "map.pgm and map.yaml")
-          .key("picture", &S::picture, "map.png")
+          .key("picture", &S::picture, "map.png: what the robot mapped")
+          .key("path_picture", &S::path_picture, "path.png: its way in the world as it is")
           .key("observed_region_m", &S::observed_region_m, "m", between(-1e9, 1e9),
                "x_min, y_min, x_max, y_max: result.json tells which share of the free area in it was observed (from the world itself)");
   return section;

@@ -115,6 +115,7 @@ Result<Done> write_outputs(const std::filesystem::path& folder, const Simulation
   if (!output.trajectory) stale.insert(stale.end(), {"trajectory.csv", "trajectory.tum"});
   if (!output.map || !with_map) stale.insert(stale.end(), {"map.pgm", "map.yaml"});
   if (!output.picture) stale.emplace_back("map.png");
+  if (!output.path_picture) stale.emplace_back("path.png");
   for (const std::string& name : stale) std::filesystem::remove(folder / name, ignored);
   std::vector<Result<Done>> written;
   written.push_back(write_file(folder / "mission.toml", write_mission(simulation.mission())));
@@ -124,6 +125,7 @@ Result<Done> write_outputs(const std::filesystem::path& folder, const Simulation
   }
   if (output.map && with_map) written.push_back(write_map_file(folder / "map", simulation.map().to_grid()));
   if (output.picture) written.push_back(write_map_picture(folder / "map.png", simulation, trajectory));
+  if (output.path_picture) written.push_back(write_path_picture(folder / "path.png", simulation, trajectory));
   written.push_back(write_file(folder / "timing.json", timing_json(simulation, wall_start_s, wall_run_s)));
   written.push_back(write_file(folder / "result.json", result_json(simulation)));  // last: where it is, the rest is
   for (const auto& one : written)

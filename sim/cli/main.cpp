@@ -170,7 +170,9 @@ int dispatch(int argc, char** argv) {
   app.name("thicket");
   app.set_version_flag("--version", thicket::version());
   app.require_subcommand(1);
-  app.footer("First steps:\n  thicket worlds\n  thicket run worlds/data/foliage_wall/bug2.toml\n  thicket help mission\n"
+  app.footer("First steps:\n  thicket worlds\n  thicket run worlds/data/foliage_wall/bug2.toml    and look at path.png and map.png in thicket-out/bug2\n"
+             "  thicket run bugs/bug1_success                      what Bug planners do; bugs/bug2_2012_wrong: where one goes wrong\n"
+             "  thicket reachability --problems 5                  are they right?\n  thicket help mission\n"
              "Exit codes of run: 0 reached, 1 internal error, 2 bad usage or file, 3 unreachable, 4 stopped, 5 collided.");
 
   RunArguments arguments;

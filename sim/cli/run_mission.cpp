@@ -81,7 +81,7 @@ std::optional<Error> folder_fault(const std::filesystem::path& folder, const std
   if (fault || !std::filesystem::is_directory(folder, fault) || access(folder.c_str(), W_OK) != 0)
     return Error{fmt::format("--out: the folder '{}' cannot be written to, expected one that can", folder.string())};
   for (const auto& input : {mission_file, mission.world_file, mission.image_file})
-    for (const char* output : {"mission.toml", "map.yaml", "map.pgm", "map.png"})
+    for (const char* output : {"mission.toml", "map.yaml", "map.pgm", "map.png", "path.png"})
       if (!input.empty() && std::filesystem::equivalent(input, folder / output, fault))
         return Error{fmt::format("--out: '{}' is read by this run and would be overwritten, expected another folder", (folder / output).string())};
   return std::nullopt;

@@ -16,7 +16,7 @@ namespace {
 
 nlohmann::json json_of(const std::filesystem::path& file) { return nlohmann::json::parse(*read_text_file(file)); }
 
-const std::vector<std::string> outputs = {"map.pgm", "map.png", "map.yaml", "mission.toml", "result.json", "timing.json", "trajectory.csv", "trajectory.tum"};
+const std::vector<std::string> outputs = {"map.pgm", "map.png", "map.yaml", "mission.toml", "path.png", "result.json", "timing.json", "trajectory.csv", "trajectory.tum"};
 
 }  // namespace
 
@@ -71,7 +71,7 @@ size_m = [0.2, 3.0, 1.0]
 
   for (const auto& [arguments, words] : {std::pair{"run nowhere", "there is no mission 'nowhere'"}, {"run", "nothing to run"}, {"run foliage_wall/bug2 --goal 1", "--goal is '1', expected X,Y"},
                                          {"run foliage_wall/bug2 --set clearance", "expected KEY=VALUE"}, {"run foliage_wall/bug2 --set planner.clearence_m=2", "did you mean 'clearance_m'"},
-                                         {"run foliage_wall/bug2 --planner bug9", "expected one of 'bug1', 'bug2', 'waypoints'"}, {"run foliage_wall/bug2 --no-such-flag", "--no-such-flag"},
+                                         {"run foliage_wall/bug2 --planner bug9", "expected one of 'bug1', 'bug2', 'bug2_2012'"}, {"run foliage_wall/bug2 --no-such-flag", "--no-such-flag"},
                                          {"run foliage_wall/divided_room", "this is a world and not a mission"}, {"run foliage_wall/bug2 --seed 9223372036854775808", "--seed: 'seed' is a text"}, {"check nowhere.toml", "there is no file"}, {"help nothing", "expected mission or world"}, {"frobnicate", ""}, {"", ""}}) {
     CAPTURE(arguments);
     const Answer answer = call(folder, arguments);
@@ -84,8 +84,11 @@ TEST_CASE("a folder that is used again holds nothing of the run before, and no n
   const TemporaryFolder folder;
   REQUIRE(call(folder, "run foliage_wall/smoke --out o --quiet").code == 0);
   REQUIRE(call(folder, "run foliage_wall/smoke --out o --quiet --set output.map=false --set output.picture=false --set limits.time_s=1").code == 4);
+  REQUIRE(call(folder, "run foliage_wall/smoke --out p --quiet --set output.path_picture=false --set limits.time_s=1").code == 4);
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "p/path.png"));
   CHECK_FALSE(std::filesystem::exists(folder.path() / "o/map.pgm"));
   CHECK_FALSE(std::filesystem::exists(folder.path() / "o/map.png"));
+  CHECK(std::filesystem::exists(folder.path() / "o/path.png"));
   CHECK(json_of(folder.path() / "o/result.json")["verdict"] == "stopped");
   CHECK(call(folder, "run foliage_wall/smoke --quiet --set limits.time_s=1 --set name=../../evil").code == 4);
   CHECK(std::filesystem::exists(folder.path() / "thicket-out/_._.._evil/result.json"));
@@ -101,6 +104,7 @@ TEST_CASE("a goal far away does not make the picture too large") {
   const TemporaryFolder folder;
   CHECK(call(folder, "run foliage_wall/smoke --goal 10000,10000 --set limits.time_s=1 --out o --quiet").code == 4);
   CHECK(read_image(folder.path() / "o/map.png")->width < 3000);
+  CHECK(read_image(folder.path() / "o/path.png")->width < 3000);
 }
 
 TEST_CASE("--json prints the result alone, --quiet nothing") {

@@ -67,7 +67,7 @@ TEST_CASE("what is wrong with a mission is told with its place and a remedy") {
       {"world = \"w.toml\"\n[planner]\ngoal_m = [1.0, 2.0]\nclearence_m = 1\n", "m.toml:4:1", "did you mean 'clearance_m'?"},
       {"world = \"w.toml\"\n[planner]\ngoal_m = [1.0]\n", "m.toml:3:10", "expected an array of 2 numbers in m"},
       {"world = \"w.toml\"\n[planner]\ngoal_m = [1.0, nan]\n", "m.toml:3:16", "expected an array of 2 numbers"},
-      {"world = \"w.toml\"\n[planner]\nname = \"bug3\"\ngoal_m = [1.0, 2.0]\n", "m.toml:3:8", "expected one of 'bug1', 'bug2', 'waypoints'"},
+      {"world = \"w.toml\"\n[planner]\nname = \"bug3\"\ngoal_m = [1.0, 2.0]\n", "m.toml:3:8", "expected one of 'bug1', 'bug2', 'bug2_2012'"},
       {"world = \"w.toml\"\n", "m.toml", "lacks a goal"},
       {"world = \"w.toml\"\n[planner]\nname = \"waypoints\"\n", "m.toml:2:1", "lacks way-points"},
       {"[planner]\ngoal_m = [1.0, 2.0]\n", "m.toml", "lacks the key 'world'"},

@@ -36,6 +36,7 @@ struct OutputSpec {
   bool trajectory = true;
   bool map = true;
   bool picture = true;
+  bool path_picture = true;
   std::optional<glm::dvec4> observed_region_m;
 };
 

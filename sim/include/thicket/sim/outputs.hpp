@@ -24,6 +24,10 @@ std::string timing_json(const Simulation& simulation, double wall_start_s, doubl
 /// the planner's marks and a scale bar.
 Result<Done> write_map_picture(const std::filesystem::path& file, const Simulation& simulation, const Trajectory& trajectory);
 
+/// `path.png`: the world as it is (at the end of the run, at the hull's heights), not as the robot knows it: matter, the band around it that the robot's axis cannot enter without giving up its
+/// clearance, and in it the way that the robot went, coloured by what it did, with start, goal, the planner's marks, the hull at the end and a scale bar. The same run gives the same bytes.
+Result<Done> write_path_picture(const std::filesystem::path& file, const Simulation& simulation, const Trajectory& trajectory);
+
 /// Writes all of the mission's outputs into a folder, which is made if need be.
 Result<Done> write_outputs(const std::filesystem::path& folder, const Simulation& simulation, const Trajectory& trajectory, double wall_start_s, double wall_run_s);
 
