@@ -82,12 +82,12 @@ TEST_CASE("a FarView sees the end of a wall, joins what the robot cannot pass, a
   REQUIRE(right);
   CHECK(left->heading == doctest::Approx(-right->heading).epsilon(0.1));
   CHECK(left->heading == doctest::Approx(std::asin(1.66 / 5.0)).epsilon(0.1));
-  CHECK(view.nearest_place({20.0, 0.0}).distance < 19.0 - 3.5);
-  const double before = view.sight();
-  view.trust_less();
-  CHECK(view.sight() < 0.6 * before);
-  view.trust_more();
-  CHECK(view.sight() == doctest::Approx(before));
+  const auto place = view.place_nearer({20.0, 0.0}, 18.0);
+  REQUIRE(place);
+  CHECK(place->distance < 19.0 - 3.5);
+  CHECK(glm::distance(place->at, glm::dvec2(20.0, 0.0)) == doctest::Approx(place->distance));
+  CHECK_FALSE(view.place_nearer({20.0, 0.0}, place->distance));      // none is nearer than the nearest
+  CHECK_FALSE(view.place_nearer({20.0, 0.0}, 19.0 - view.sight()));  // nor any out of sight
   // two thin poles, 1 m apart, with 1.2 m needed: the way between them ends at a wall
   look({{{4.0, 0.5}, 0.08}, {{4.0, -0.5}, 0.08}}, 5.0);
   CHECK(view.free_toward({9.0, 0.0}) < 2.8);
