@@ -32,7 +32,7 @@ class DistBug final : public Bug {
     const bool nearer = distance_to_goal() < glm::distance(walk().hit(), goal()) - pilot().same_place();
     if (believes_) {
       if (walk().armed() && pilot().open_toward(goal())) {
-        const double distance = distance_to_goal(), range = view_.free_toward(goal()), step = 2.0 * pilot().same_place();
+        const double distance = distance_to_goal(), range = view_.free_toward(goal()), step = pilot().keep();
         if (range >= distance - 1e-9 || distance - range <= walk().closest_distance() - step) return leave();
       }
       passed_way_out_ = passed_way_out_ || (nearer && (pilot().open_toward(goal()) || pilot().blocked_by_other(goal())));

@@ -28,13 +28,17 @@ class TangentBug final : public Bug {
   glm::dvec2 aim() override {
     if (place_ && !pilot().at(*place_) && pilot().distance_to(*place_) > pilot().same_place()) return *place_;
     place_.reset();
+    // In contact with what stands in the way, it is followed; past its end it would go in free space only.
+    if (pilot().blocked_toward(goal())) return goal();
     if (view_.is_free(goal())) {
       side_ = 0;
       return goal();
     }
     const auto end = better_end();
     if (!end || glm::distance(end->at, goal()) > distance_to_goal() - 0.1 * pilot().distance_to(end->at)) return goal();
-    return pilot().pose().position + std::max(4.0 * pilot().keep(), pilot().distance_to(end->at)) * direction(end->heading);
+    // Past the end, so that it does not brake for it; but near the goal, to which it will turn beside the end, no faster than it can brake for what stands before that.
+    const double past = std::max(4.0 * pilot().keep(), pilot().distance_to(end->at)), before = std::max(view_.free_toward(goal()), distance_to_goal() - pilot().keep());
+    return pilot().pose().position + std::max(pilot().same_place(), std::min(past, before)) * direction(end->heading);
   }
 
   /// That end of what stands in the way by which the way to the goal is shorter; the same one as before unless the other is clearly better.
