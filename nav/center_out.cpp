@@ -24,25 +24,25 @@ class CenterOut final : public Explorer {
   Decision drive() override {
     if (pilot().at(target_)) {
       blocked_ = 0;
-      if (target_ == corner_) next_arm();
+      if (target_ == corner_) next_arm(position());
       else target_ = corner_;
     }
     for (int i = 0; i < 8 && pilot().blocked_toward(target_); ++i) {
       if (++blocked_ > 16) return explored("every arm of the spiral is blocked");
       mark("blocked", position());
-      next_arm();
+      next_arm(position() - 0.5 * lane() * glm::normalize(target_ - position()));  // off what blocks it, or the way along that would be blocked too
     }
     return go_to(target_, fmt::format("arm {} of the spiral", arm_));
   }
 
-  void next_arm() { next_arm(position()); }
+  /// To be entered at its place nearest to `robot`.
   void next_arm(const glm::dvec2& robot) {
     const glm::dvec2 from = corner_;
     corner_ += lane() * static_cast<double>(arm_ / 2 + 1) * direction(yaw_ + 0.5 * pi * static_cast<double>(arm_ % 4));
     mark_segment("arm", from, corner_);
     ++arm_;
     const glm::dvec2 along = glm::normalize(corner_ - from), entry = from + std::clamp(glm::dot(robot - from, along), 0.0, glm::distance(from, corner_)) * along;
-    target_ = pilot().same_place() < glm::distance(entry, robot) ? entry : corner_;
+    target_ = pilot().at(entry) ? corner_ : entry;
   }
 
   double yaw_;

@@ -7,6 +7,17 @@
 #include <glm/geometric.hpp>
 
 namespace thicket {
+namespace {
+
+/// How far it is free along a unit vector until a point is nearer than a radius, if that is less than `way` so far.
+inline void shorten(double& way, const glm::dvec2& point, const glm::dvec2& along, double radius) {
+  const double ahead = point.x * along.x + point.y * along.y;
+  if (ahead <= 0.0 || ahead - radius >= way) return;
+  const double across = along.x * point.y - along.y * point.x, square = radius * radius - across * across;
+  if (square > 0.0) way = std::min(way, std::max(0.0, ahead - std::sqrt(square)));
+}
+
+}  // namespace
 
 void FarView::look(const Pose2& pose, const Contour& contour) {
   pose_ = pose;
@@ -26,14 +37,9 @@ void FarView::look(const Pose2& pose, const Contour& contour) {
   }
 }
 
-double FarView::way_before(const ContourPoint& point, const glm::dvec2& along) const {
-  const double ahead = glm::dot(point.position, along), across = along.x * point.position.y - along.y * point.position.x, square = radius_ * radius_ - across * across;
-  return ahead > 0.0 && square > 0.0 ? std::max(0.0, ahead - std::sqrt(square)) : INFINITY;
-}
-
 double FarView::free_way(double heading, double limit) const {
   const glm::dvec2 along = direction(heading);
-  for (const ContourPoint& point : contour_) limit = std::min(limit, way_before(point, along));
+  for (const ContourPoint& point : contour_) shorten(limit, point.position, along, radius_);
   return limit;
 }
 
@@ -48,9 +54,9 @@ bool FarView::is_free(const glm::dvec2& point) const {
 std::optional<FarView::Place> FarView::place_nearer(const glm::dvec2& goal, double than) const {
   const glm::dvec2 to_goal = pose_.to_inner(goal);
   const double distance = glm::length(to_goal), ahead = bearing(to_goal);
-  // Headings every 5 degrees up to 85 on both sides, for from 90 on it gets no nearer; only those that lead near enough if they are free all the way. The widest: `most`.
-  constexpr int widest = 17;
-  constexpr double spacing = radians(5.0);
+  // Headings every 10 degrees up to 80 on both sides, for from 90 on it gets no nearer; only those that lead near enough if they are free all the way. The widest: `most`.
+  constexpr int widest = 8;
+  constexpr double spacing = radians(10.0);
   struct Heading {
     glm::dvec2 along{0.0, 0.0};
     double way = 0.0;
@@ -72,7 +78,7 @@ std::optional<FarView::Place> FarView::place_nearer(const glm::dvec2& goal, doub
     const int low = std::max(-most, static_cast<int>(std::ceil((off - half) / spacing))), high = std::min(most, static_cast<int>(std::floor((off + half) / spacing)));
     for (int i = low; i <= high; ++i) {
       Heading& heading = headings[static_cast<std::size_t>(widest + i)];
-      heading.way = std::min(heading.way, way_before(point, heading.along));
+      shorten(heading.way, point.position, heading.along, radius_);
     }
   }
   std::optional<Place> nearest;

@@ -44,8 +44,6 @@ class FarView {
   std::optional<Tangent> tangent(const glm::dvec2& goal, int turn) const;
 
  private:
-  /// How far it is free along a unit vector of the vehicle's frame until a point is nearer than the radius; infinite if it never is.
-  double way_before(const ContourPoint& point, const glm::dvec2& along) const;
   double free_way(double heading, double limit) const;
 
   double radius_;

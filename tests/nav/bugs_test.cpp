@@ -2,8 +2,10 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <utility>
 
 #include "disc_world.hpp"
+#include "m_line.hpp"
 
 namespace thicket {
 namespace {
@@ -16,6 +18,9 @@ const LetterMap two{{"......................", "......##..............", "......
 // With the right hand: north over the first wall, off it on the M-line, and from the second wall north, around the room and over the first wall again.
 const LetterMap baffles{{"####################", "#............#.....#", "#............#.....#", "#............#.....#", "#.S...#......#...T.#", "#.....#......#.....#", "#.....#............#",
                          "#.....#............#", "#.....#............#", "####################"}};
+// With the right hand the robot comes out where it went in, and past the hit point.
+const LetterMap coil{{"..................", "..#############...", "..#...........#...", "..#...........#...", "..#...#####...#...", "..#...#...#...#...", "S.#...#.T.#...#...", "..#...#...#...#...",
+                      "..#.......#...#...", "..#.......#...#...", "..#########...#...", ".................."}};
 const LetterMap enclosed{{"...................", "..........#######..", "..........#.....#..", "S.........#..T..#..", "..........#.....#..", "..........#######..", "..................."}};
 const LetterMap shut_in{{"................", ".#######........", ".#.....#........", ".#..S..#......T.", ".#.....#........", ".#######........", "................"}};
 
@@ -107,6 +112,47 @@ TEST_CASE("Com goes round for ever where I-Bug, which remembers one number, gets
       CHECK(i_bug.last.outcome == Outcome::reached);
     }
   CHECK(for_ever >= 2);
+}
+
+TEST_CASE("Alg1 and Alg2 turn round where they meet an earlier hit point again, once, and are there sooner than Bug2 and I-Bug, which do not") {
+  for (const bool mirrored : {false, true}) {
+    const LetterMap map = mirrored ? coil.mirrored() : coil;
+    const char* long_way = mirrored ? "left" : "right";
+    const char* short_way = mirrored ? "right" : "left";
+    for (const auto& [with, without] : {std::pair("alg1", "bug2"), std::pair("alg2", "i_bug")}) {
+      CAPTURE(with);
+      CAPTURE(mirrored);
+      const Run remembers = drive(map, with, long_way, real), forgets = drive(map, without, long_way, real);
+      CHECK(remembers.last.outcome == Outcome::reached);
+      CHECK(forgets.last.outcome == Outcome::reached);
+      CHECK(count(remembers.marks, "turn") == 1);
+      CHECK(remembers.length < 0.85 * forgets.length);
+      const Run other = drive(map, with, short_way, real), same = drive(map, without, short_way, real);
+      CHECK(other.last.outcome == Outcome::reached);
+      CHECK(count(other.marks, "turn") == 0);  // no earlier hit point is met: the same planner
+      CHECK(other.track == same.track);
+    }
+  }
+}
+
+TEST_CASE("a boundary that comes close beside the M-line, and does not cross it, is left there by all that leave on the line") {
+  const glm::dvec2 hit(0.0, 0.0), goal(10.0, 0.0);
+  for (const double sign : {1.0, -1.0}) {
+    BoundaryWalk walk({hit, 0.0}, goal, 0.1, 1.0);
+    const auto step = [&](double x, double y) {
+      walk.advance({{x, sign * y}, 0.0});
+      return on_m_line(walk, hit, goal, 0.05);
+    };
+    CHECK_FALSE(step(-1.0, 1.0));  // behind the hit point
+    CHECK_FALSE(step(-1.0, -1.0));
+    CHECK_FALSE(step(2.0, -1.0));
+    CHECK_FALSE(step(3.0, -0.06));
+    CHECK(step(3.5, -0.04));
+    CHECK_FALSE(step(4.0, -0.06));
+    CHECK(step(4.1, 2.0));  // across in one step
+    CHECK_FALSE(step(11.0, 1.0));
+    CHECK_FALSE(step(11.0, -1.0));  // behind the goal
+  }
 }
 
 TEST_CASE("DistBug leaves where it sees the goal, not before it has come round") {

@@ -49,7 +49,36 @@ TEST_CASE("TangentBug gets out of a U and does not go back into it") {
       CHECK(run.length < 3.0 * shortest(map, 0.6));
       CHECK(count(run.marks, "hit") >= 1);
       CHECK(count(run.marks, "hit") <= 4);
-      CHECK(count(run.marks, "leave") == count(run.marks, "reach"));
+      CHECK(count(run.marks, "reach") >= 1);
+      CHECK(count(run.marks, "hit") == count(run.marks, "leave"));
+      CHECK(run.least > 0.25);
+    }
+}
+
+TEST_CASE("TangentBug gets out where what it saw free far away was not: poles that stand closer than it is wide") {
+  // From the bottom of the U the goal is in sight between the poles of a fence, far away and through gaps that are open in one scan and not in the next.
+  const LetterMap fence{{".........................", "...............#.........", ".....................#...", "...............#.........", ".....................#...", "S..............#........T",
+                         ".....................#...", "...............#.........", ".....................#...", "...............#.........", "........................."}};
+  for (const LetterMap& map : {fence, fence.mirrored()})
+    for (const char* hand : {"left", "right"}) {
+      const Run run = drive(map, "tangent_bug", hand, real);
+      CAPTURE(hand);
+      CHECK(run.last.outcome == Outcome::reached);
+      CHECK(run.length < 2.0 * shortest(map, 0.6));
+      CHECK(run.least > 0.25);
+    }
+}
+
+TEST_CASE("TangentBug does not slide into the band along a wall for a goal that lies in it") {
+  // The goal is 0.35 m off the wall, beside its corner, the robot keeps 0.6 m.
+  const LetterMap wall{{"............", "............", "S...........", "............", "............", ".....#####..", ".....#####..", ".....#####..", "............"}};
+  for (const bool mirrored : {false, true})
+    for (const char* hand : {"left", "right"}) {
+      const LetterMap map = mirrored ? wall.mirrored() : wall;
+      const glm::dvec2 start = map.find('S'), goal(4.65, mirrored ? 5.5 : 3.5);
+      const Run run = drive(TestWorld{{}, map, {}}, to(goal.x, goal.y, "tangent_bug", hand), {start, bearing(goal - start)}, real);
+      CAPTURE(hand);
+      CHECK(run.last.outcome == Outcome::unreachable);
       CHECK(run.least > 0.25);
     }
 }
