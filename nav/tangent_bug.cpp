@@ -36,9 +36,9 @@ class TangentBug final : public Bug {
     }
     const auto end = better_end();
     if (!end || glm::distance(end->at, goal()) > distance_to_goal() - 0.1 * pilot().distance_to(end->at)) return goal();
-    // Past the end, so that it does not brake for it; but near the goal, to which it will turn beside the end, no faster than it can brake for what stands before that.
-    const double past = std::max(4.0 * pilot().keep(), pilot().distance_to(end->at)), before = std::max(view_.free_toward(goal()), distance_to_goal() - pilot().keep());
-    return pilot().pose().position + std::max(pilot().same_place(), std::min(past, before)) * direction(end->heading);
+    // Past the end, so that it does not brake for it; but no faster than it can brake for what stands before the goal, to which it turns beside the end, or within a quarter of the distance that it keeps.
+    const double past = std::max(4.0 * pilot().keep(), pilot().distance_to(end->at)), before = std::max(view_.free_toward(goal()), 0.25 * pilot().keep());
+    return pilot().pose().position + std::min(past, before) * direction(end->heading);
   }
 
   /// That end of what stands in the way by which the way to the goal is shorter; the same one as before unless the other is clearly better.
