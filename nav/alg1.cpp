@@ -26,12 +26,9 @@ class Alg1 final : public Bug {
 
   Decision on_boundary() override {
     // The line is taken from the hit point, not from the start, as in bug2.cpp.
-    if (const auto at = crossing(walk(), hit_, goal()); at && walk().armed()) {
-      const double distance = glm::distance(*at, goal());
-      if (distance < nearest_ - pilot().same_place() && leads_away()) {
-        nearest_ = distance;
-        return leave();
-      }
+    if (on_m_line(walk(), hit_, goal(), 0.5 * pilot().same_place()) && distance_to_goal() < nearest_ - pilot().same_place() && leads_away()) {
+      nearest_ = distance_to_goal();
+      return leave();
     }
     if (hits_.met_again(walk(), pilot().same_place())) {
       mark("turn", pilot().pose().position);

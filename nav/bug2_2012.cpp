@@ -18,14 +18,10 @@ class Bug2Of2012 final : public Bug {
  private:
   Decision on_boundary() override {
     const double hit_distance = glm::distance(walk().hit(), goal()), tolerance = pilot().same_place();
-    if (walk().armed()) {
-      // In front of the hit point the line is taken from there (why: bug2.cpp), behind it from the start.
-      const auto nearer = crossing(walk(), walk().hit(), goal());
-      if (nearer && glm::distance(*nearer, goal()) < hit_distance - tolerance && leads_away()) return leave();
-      const auto farther = crossing(walk(), start_, goal());
-      if (farther && glm::distance(*farther, goal()) > hit_distance + 2.0 * tolerance)
-        return unreachable("the M-line was crossed farther from the goal than where the boundary was hit (the rule of 2012, which proves nothing)");
-    }
+    // In front of the hit point the line is taken from there (why: bug2.cpp), behind it from the start.
+    if (on_m_line(walk(), walk().hit(), goal(), 0.5 * tolerance) && distance_to_goal() < hit_distance - tolerance && leads_away()) return leave();
+    if (walk().armed() && on_m_line(walk(), start_, goal(), 0.0) && distance_to_goal() > hit_distance + 2.0 * tolerance)
+      return unreachable("the M-line was crossed farther from the goal than where the boundary was hit (the rule of 2012, which proves nothing)");
     if (walk().closed()) return unreachable("the hit point was met again without a crossing of the M-line to leave at");
     return follow("following the boundary");
   }

@@ -1,8 +1,11 @@
-// DistBug (Kamon & Rivlin 1997): with the free range F toward the goal T. Leave the boundary where T is in straight reach, or where d(x, T) - F <= d_min - STEP, d_min being the least
-// distance to T on this boundary (here: on any so far, so that it ends): then the robot will be nearer to T, by STEP, than it ever was on one. STEP is two widths of a place, because a greater one
-// would not see the way out between two obstacles. A closed loop means that there is no way.
+// DistBug (Kamon & Rivlin 1997): with the free range F toward the goal T. Leave the boundary where T is in straight reach, or where d(x, T) - F <= d_min - STEP, d_min being the least distance to T on
+// this boundary: then the next one is hit nearer to T, by STEP, than any place of this one, so that it ends. A closed loop means that there is no way, but for two things that the paper does not have:
+// a free range that was none (a wall seen at a low angle is a row of far echoes), and a way out that is free by less than STEP. Where a hit is not nearer to T than all before, or
+// where a loop has passed a way out like that, the next one is left by the rule of i_bug.cpp, which needs no range.
 #include <algorithm>
 #include <cmath>
+
+#include <glm/geometric.hpp>
 
 #include "bug.hpp"
 #include "far_view.hpp"
@@ -19,35 +22,34 @@ class DistBug final : public Bug {
  private:
   void look_far(const Senses& senses) override { view_.look(senses.pose, senses.contour); }
 
-  /// The way was not as free as it looked: where a wall is seen at a low angle and far away, its echoes are far apart.
   void on_hit() override {
-    if (distance_to_goal() > promised_ + pilot().same_place()) view_.trust_less();
-    else view_.trust_more();
-    promised_ = INFINITY;
-    second_lap_ = false;
+    believes_ = distance_to_goal() < best_hit_ - 0.5 * pilot().same_place();
+    best_hit_ = std::min(best_hit_, distance_to_goal());
+    passed_way_out_ = false;
   }
 
   Decision on_boundary() override {
-    nearest_ = std::min(nearest_, walk().closest_distance());
-    const double step = 2.0 * pilot().same_place(), distance = distance_to_goal(), range = view_.free_toward(goal());
-    const bool in_reach = range >= distance - 1e-9, nearer = distance - range <= (second_lap_ ? walk().closest_distance() : nearest_) - step;
-    if (walk().armed() && (in_reach || nearer) && pilot().open_toward(goal())) {
-      promised_ = distance - range;
+    const bool nearer = distance_to_goal() < glm::distance(walk().hit(), goal()) - pilot().same_place();
+    if (believes_) {
+      if (walk().armed() && pilot().open_toward(goal())) {
+        const double distance = distance_to_goal(), range = view_.free_toward(goal()), step = pilot().keep();
+        if (range >= distance - 1e-9 || distance - range <= walk().closest_distance() - step) return leave();
+      }
+      passed_way_out_ = passed_way_out_ || (nearer && (pilot().open_toward(goal()) || pilot().blocked_by_other(goal())));
+    } else if (nearer && leads_away()) {
       return leave();
     }
-    // A way that only seemed free has brought it to a boundary that is farther from the goal than an earlier one: what counts now is this one.
-    if (walk().closed() && !second_lap_ && walk().closest_distance() > nearest_ + step) {
-      second_lap_ = true;
-      begin_walk();
-    }
-    if (walk().closed()) return unreachable("the whole boundary was walked, and from nowhere does the free way to the goal lead nearer to it than the boundary itself");
-    return follow("following the boundary");
+    if (!walk().closed()) return follow("following the boundary");
+    if (!passed_way_out_) return unreachable("the whole boundary was walked, and from nowhere does the free way to the goal lead nearer to it than the boundary itself");
+    believes_ = passed_way_out_ = false;
+    begin_walk();
+    return follow("following the boundary for the second time");
   }
 
   FarView view_;
-  double promised_ = INFINITY;  ///< distance to the goal that leaving was to bring, m
-  double nearest_ = INFINITY;   ///< least distance to the goal on any boundary so far, m
-  bool second_lap_ = false;
+  double best_hit_ = INFINITY;   ///< least distance to the goal at a hit so far, m
+  bool believes_ = true;         ///< what is seen far away
+  bool passed_way_out_ = false;  ///< by the rule of I-Bug
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include <glm/vec2.hpp>
 
@@ -20,23 +21,19 @@ class FarView {
   void look(const Pose2& pose, const Contour& contour);
 
   /// How far it sees, m: a beam without an echo tells only that nothing is within the sensor's range, which is at least the farthest echo so far.
-  double sight() const { return std::max(trust_ * farthest_, std::min(farthest_, 4.0 * radius_)); }
-  /// Believes only half as far from now on, but for what is near: a way that was seen free was not.
-  void trust_less() { trust_ *= 0.5; }
-  /// And twice as far again: one was.
-  void trust_more() { trust_ = std::min(1.0, 2.0 * trust_); }
+  double sight() const { return std::max(farthest_, radius_); }
 
   /// How far the straight way to a point is free, up to the point and to what it sees, m.
   double free_toward(const glm::dvec2& point) const;
   /// The straight way to a point is free, all of it or as far as it sees.
   bool is_free(const glm::dvec2& point) const;
 
-  /// Of all places that can be reached straight, the one nearest to a goal.
+  /// Of all places that can be reached straight, the one nearest to a goal; nothing if none is nearer to it than `than` m.
   struct Place {
     glm::dvec2 at{0.0, 0.0};
     double distance = 0.0;  ///< from there to the goal, m
   };
-  Place nearest_place(const glm::dvec2& goal) const;
+  std::optional<Place> place_nearer(const glm::dvec2& goal, double than) const;
 
   /// The end of what stands in the way to a goal, on the left (`turn` > 0) or the right: the heading past it, and the place where the robot is beside it.
   struct Tangent {
@@ -50,7 +47,7 @@ class FarView {
   double free_way(double heading, double limit) const;
 
   double radius_;
-  double farthest_ = 0.0, trust_ = 1.0;
+  double farthest_ = 0.0;  ///< of all echoes so far, m
   Pose2 pose_;
   Contour contour_;  ///< echoes, joined
 };

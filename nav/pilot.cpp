@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <glm/geometric.hpp>
+
+#include "thicket/nav/steering.hpp"
 
 
 namespace thicket {
@@ -50,7 +53,11 @@ void Pilot::look(const Senses& senses) {
     unseen_.complete(completed_);
     contour = &completed_;
   }
-  surroundings_.look(*contour, senses.bumpers, pose_, senses.time, std::max(keep_ + look_ahead_, vehicle_.hull_radius + senses.bumpers.press_distance()));
+  const double reach = std::max(keep_ + look_ahead_, vehicle_.hull_radius + senses.bumpers.press_distance());
+  arcs_ = unseen_.has_gaps() && std::any_of(contour->begin(), contour->end(), [](const ContourPoint& point) { return point.arc != no_arc; });
+  arcs_near_.clear();
+  if (arcs_) std::copy_if(contour->begin(), contour->end(), std::back_inserter(arcs_near_), [reach](const ContourPoint& point) { return point.distance <= reach; });
+  surroundings_.look(*contour, senses.bumpers, pose_, senses.time, reach);
   discs_ = surroundings_.discs();
   nearest_ = INFINITY;
   for (const GrownDisc& disc : discs_)
@@ -168,6 +175,7 @@ Command Pilot::follow(Hand hand) {
     boxed_in_ = false;
     return go_to(contact_);
   }
+  if (arcs_) return follow_arcs(hand);
   boxed_in_ = !roll_on(hand);
   if (boxed_in_) return {};
   const auto& points = path_.points;
@@ -225,6 +233,36 @@ Command Pilot::follow(Hand hand) {
   const double limit = speed_ * speed_ / vehicle_.deceleration + 1.0;
   Command command = drive(heading, std::min(stop + 0.5 * gap_, way_out(wrap_angle(heading), 2.0 * gap_, limit).distance));
   command.speed = std::min(command.speed, reach / turn_time_);
+  return command;
+}
+
+Command Pilot::follow_arcs(Hand hand) {
+  // With the wall on the left hand the robot turns right, away from it, until a heading is open.
+  const int turn = hand == Hand::left ? -1 : +1;
+  const double to_contact = bearing(pose_.to_inner(contact_));
+  double keep = keep_;
+  auto edge = Steering(arcs_near_, keep, look_ahead_).sweep(to_contact, turn);
+  if (!edge) {
+    // Swung a little too deep into a corner: out along the distance that there is.
+    for (const ContourPoint& point : arcs_near_) keep = std::min(keep, point.distance - 1e-3);
+    edge = Steering(arcs_near_, keep, look_ahead_).sweep(to_contact, turn);
+  }
+  boxed_in_ = !edge;
+  if (!edge) return {};
+  double heading = edge->heading;
+  if (edge->point) {
+    const ContourPoint& point = arcs_near_[*edge->point];
+    contact_ = pose_.to_outer(point.position);
+    // It points at the grown wall's tangent: come down to it gently, in proportion to the distance from it, or the robot swings.
+    if (const double off = point.distance - keep; off > 0.0) {
+      const double steep = 0.5 * pi - std::abs(wrap_angle(point.bearing - heading)), gentle = off / look_ahead_;
+      heading += turn * std::clamp(steep - gentle, 0.0, 0.5 * edge->open);
+    }
+  }
+  heading = wrap_angle(heading);
+  if (turn * heading < -radians(120.0)) heading += turn * 2.0 * pi;
+  Command command = drive(heading, Steering(arcs_near_, keep, look_ahead_).free_way(wrap_angle(heading), keep - 2.0 * gap_, speed_ * speed_ / vehicle_.deceleration + 1.0).distance);
+  command.speed = std::min(command.speed, look_ahead_ / turn_time_);
   return command;
 }
 

@@ -67,6 +67,8 @@ class Pilot {
   Way way_out(double heading, double shrink, double limit) const;
   Way way_to(const glm::dvec2& point, double shrink) const;
   bool roll_on(Hand hand);
+  /// Lobes tell on which arc there is matter, not where on it: the robot keeps away from all of the arc, by headings that are open.
+  Command follow_arcs(Hand hand);
   /// `heading` beyond +-pi turns the long way round.
   Command drive(double heading, double way) const;
 
@@ -88,6 +90,8 @@ class Pilot {
   Surroundings surroundings_;
   Unseen unseen_;                   ///< what was seen lately, of a robot whose sensors leave gaps
   Contour completed_;               ///< the contour with that
+  bool arcs_ = false;               ///< a sensor with lobes
+  Contour arcs_near_;               ///< and what it sees within reach
   std::optional<Rules2012> rules_;  ///< instead of the boundary of the grown obstacles
   std::vector<GrownDisc> discs_;  ///< as now, in the frame of the pose
   BoundaryPath path_;

@@ -1,10 +1,12 @@
 // TangentBug (Kamon, Rimon & Rivlin 1998; Choset et al. 2005, ch. 2; LaValle 2006, 12.3.3): with ranges. T is the goal, x the robot.
 // Motion to the goal: straight where the way is free as far as seen, else toward that end n of what stands in it which makes d(x, n) + d(n, T) least, as long as n is
 // nearer to T than x is (so that d(x, T) only ever decreases), else straight on until the obstacle is met. Then it follows the boundary, in the sense
-// of the better end. d_followed: the least distance to T on any boundary so far. d_reach: the least distance to T of a place that can be reached
-// straight. It leaves for that place where d_reach < d_followed by a margin; there, motion to the goal goes on. Each boundary is left for a place nearer to T than
-// it ever was on one, so that it ends. A closed loop means that there is no way: were there one, the point of the loop nearest to T would have it.
-// Different from the paper: d_followed is of where the robot has been, not of what it saw of the boundary. It leaves earlier then, for a nearer place of the same boundary.
+// of the better end. d_followed: the least distance to T on this boundary. d_reach: the least distance to T of a place that can be reached straight. It leaves for that place where
+// d_reach < d_followed by a margin; there, motion to the goal goes on. So the next boundary is hit nearer to T than any place of this one, and it ends.
+// What the paper does not have is a far place that only seemed free: a wall seen at a low angle is a row of far echoes, and a gap just as wide as the robot needs is open in one scan and
+// not in the next. So a boundary is also left by the rule of i_bug.cpp, which needs no range: where the way to the goal is open and the goal is nearer than at the hit. And a hit that is not nearer to T
+// than all before was on the way to a place that only seemed free: that boundary is left by the rule of I-Bug alone. Every hit is then nearer to T than the one before, until one is nearer than
+// all: so it ends. A closed loop proves that there is no way as it does for I-Bug.
 #include <algorithm>
 #include <cmath>
 
@@ -26,13 +28,17 @@ class TangentBug final : public Bug {
   glm::dvec2 aim() override {
     if (place_ && !pilot().at(*place_) && pilot().distance_to(*place_) > pilot().same_place()) return *place_;
     place_.reset();
+    // In contact with what stands in the way, it is followed; past its end it would go in free space only.
+    if (pilot().blocked_toward(goal())) return goal();
     if (view_.is_free(goal())) {
       side_ = 0;
       return goal();
     }
     const auto end = better_end();
     if (!end || glm::distance(end->at, goal()) > distance_to_goal() - 0.1 * pilot().distance_to(end->at)) return goal();
-    return pilot().pose().position + std::max(4.0 * pilot().keep(), pilot().distance_to(end->at)) * direction(end->heading);
+    // Past the end, so that it does not brake for it; but no faster than it can brake for what stands before the goal, to which it turns beside the end, or within a quarter of the distance that it keeps.
+    const double past = std::max(4.0 * pilot().keep(), pilot().distance_to(end->at)), before = std::max(view_.free_toward(goal()), 0.25 * pilot().keep());
+    return pilot().pose().position + std::min(past, before) * direction(end->heading);
   }
 
   /// That end of what stands in the way by which the way to the goal is shorter; the same one as before unless the other is clearly better.
@@ -48,12 +54,6 @@ class TangentBug final : public Bug {
   }
 
   Hand choose_hand(Hand first) override {
-    if (place_ && distance_to_goal() > nearest_ - 0.5 * margin()) {  // The way to it was not free after all.
-      failed_.push_back(*place_);
-      view_.trust_less();
-    } else {
-      view_.trust_more();
-    }
     place_.reset();
     if (side_ == 0) better_end();
     return side_ == 0 ? first : side_ > 0 ? Hand::right : Hand::left;
@@ -61,46 +61,29 @@ class TangentBug final : public Bug {
 
   void on_hit() override {
     side_ = 0;
-    second_lap_ = false;
+    believes_ = distance_to_goal() < best_hit_ - 0.5 * pilot().same_place();
+    best_hit_ = std::min(best_hit_, distance_to_goal());
   }
 
   Decision on_boundary() override {
-    nearest_ = std::min(nearest_, walk().closest_distance());
-    if (walk().armed()) {
-      const double followed = second_lap_ ? walk().closest_distance() : nearest_;
-      const FarView::Place place = view_.nearest_place(goal());
-      const bool goal_in_reach = view_.sight() > distance_to_goal() && view_.is_free(goal());
-      const glm::dvec2 reach = goal_in_reach ? goal() : place.at;
-      if ((goal_in_reach || place.distance < followed - margin()) && pilot().open_toward(reach) && !failed_often(reach)) {
-        place_ = reach;
-        mark("reach", reach);
+    if (distance_to_goal() < glm::distance(walk().hit(), goal()) - pilot().same_place() && leads_away()) return leave();
+    if (believes_ && walk().armed()) {
+      const auto reach = view_.place_nearer(goal(), walk().closest_distance() - 2.0 * pilot().same_place());
+      if (reach && pilot().open_toward(reach->at)) {
+        place_ = reach->at;
+        mark("reach", *place_);
         return leave();
       }
     }
-    if (!walk().closed()) return follow("following the boundary");
-    // A way that only seemed free has brought it to a boundary that is farther from the goal than an earlier one: what counts now is this one.
-    if (!second_lap_ && walk().closest_distance() > nearest_ + margin()) {
-      second_lap_ = true;
-      begin_walk();
-      return follow("following the boundary for the second time");
-    }
-    return unreachable("the whole boundary was walked, and no place nearer to the goal could be reached straight from it");
+    if (walk().closed()) return unreachable("the whole boundary was walked, and no place nearer to the goal could be reached straight from it");
+    return follow("following the boundary");
   }
-
-  /// A place seen free again and again, and never: in a gap just as wide as the robot needs.
-  bool failed_often(const glm::dvec2& place) const {
-    return std::count_if(failed_.begin(), failed_.end(), [&](const glm::dvec2& at) { return glm::distance(at, place) < 0.5 * pilot().keep(); }) >= 3;
-  }
-
-  /// So much nearer to the goal each boundary is left, m.
-  double margin() const { return 2.0 * pilot().same_place(); }
 
   FarView view_;
   int side_ = 0;                     ///< of what stands in the way: +1 past its left end, -1 past its right one, 0 undecided
   std::optional<glm::dvec2> place_;  ///< where it goes straight after it left a boundary
-  double nearest_ = INFINITY;        ///< least distance to the goal on any boundary so far, m
-  bool second_lap_ = false;
-  std::vector<glm::dvec2> failed_;   ///< places for which it left, and which it did not reach
+  double best_hit_ = INFINITY;       ///< least distance to the goal at a hit so far, m
+  bool believes_ = true;             ///< what is seen far away
 };
 
 }  // namespace

@@ -1,5 +1,9 @@
 // Mapping and deciding, on what shipped missions sensed.
+#include <chrono>
 #include <limits>
+#include <numeric>
+
+#include <fmt/format.h>
 
 #include "bench_worlds.hpp"
 
@@ -16,8 +20,9 @@ struct Moment {
   Pose pose_in_space() const { return Pose::planar(pose.position.x, pose.position.y, 0.0, pose.yaw); }
 };
 
-std::vector<Moment> record(const char* mission) {
-  Simulation simulation = or_exit(Simulation::create(shipped_mission(mission, {{"map.enabled", "false", "bench"}})));
+std::vector<Moment> record(const char* mission, std::vector<Override> changes = {}) {
+  changes.push_back({"map.enabled", "false", "bench"});
+  Simulation simulation = or_exit(Simulation::create(shipped_mission(mission, changes)));
   std::vector<Moment> moments;
   for (bool goes_on = true; goes_on;) {
     const std::uint64_t decisions = simulation.totals().decisions;
@@ -157,6 +162,35 @@ void decisions(benchmark::State& state, const std::vector<Moment>& moments, cons
   per_item(state, "decision", static_cast<double>(moments.size()));
 }
 
+/// The decisions of one planner along a wall, from the scan to the command: 8 bumpers, 180 rays, and only those made while it follows the boundary, from the contact on.
+void following(benchmark::State& state, const std::vector<Moment>& moments, const Mission& mission) {
+  const Simulation simulation = or_exit(Simulation::create(mission));
+  const auto planner = or_exit(make_planner(mission.planner, mission.vehicle.limits(0.1), simulation.vehicle().pose));
+  using Clock = std::chrono::steady_clock;
+  Contour contour;
+  ContourReader reader;
+  // Of each decision the least time of all repetitions: others may use the cores too.
+  std::vector<double> least(moments.size(), std::numeric_limits<double>::infinity());
+  for (auto _ : state) {
+    const auto fresh = planner->clone();
+    BumperRing bumpers = simulation.bumpers();
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+      const Moment& moment = moments[i];
+      const auto begin = Clock::now();
+      contour.clear();
+      reader.add(moment.scan, contour);
+      bumpers.read(contour);
+      const Decision decision = fresh->decide({moment.time, moment.pose, moment.speed, moment.turn_rate, contour, bumpers});
+      const auto end = Clock::now();
+      if (decision.state.find("hand") == std::string::npos) continue;
+      least[i] = std::min(least[i], std::chrono::duration<double, std::nano>(end - begin).count());
+    }
+  }
+  std::erase_if(least, [](double ns) { return !(ns < std::numeric_limits<double>::infinity()); });
+  state.counters["following decisions"] = static_cast<double>(least.size());
+  state.counters["ns per following decision"] = std::accumulate(least.begin(), least.end(), 0.0) / static_cast<double>(std::max<std::size_t>(1, least.size()));
+}
+
 }  // namespace
 
 void register_nav() {
@@ -178,6 +212,12 @@ void register_nav() {
   const std::vector<Moment> moments = record(bug2);
   measure("plan/bug2/contour and bumpers", [=](benchmark::State& s) { decisions(s, moments, bug2, false); });
   measure("plan/bug2/and the decision", [=](benchmark::State& s) { decisions(s, moments, bug2, true); });
+  for (const char* name : {"bug1", "bug2", "tangent_bug", "dist_bug", "alg1", "alg2", "i_bug", "com"}) {
+    const std::vector<Override> changes = {{"planner.name", fmt::format("\"{}\"", name), "bench"}, {"sensor.step_deg", "2.0", "bench"}, {"sensor.range_max_m", "5.0", "bench"}};
+    Mission mission = shipped_mission(bug2, changes);
+    const std::vector<Moment> along = record(bug2, changes);
+    measure(fmt::format("plan/{}/following a wall, contour, bumpers and decision", name), [=](benchmark::State& s) { following(s, along, mission); });
+  }
 }
 
 }  // namespace thicket::bench

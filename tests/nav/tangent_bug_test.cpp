@@ -49,7 +49,36 @@ TEST_CASE("TangentBug gets out of a U and does not go back into it") {
       CHECK(run.length < 3.0 * shortest(map, 0.6));
       CHECK(count(run.marks, "hit") >= 1);
       CHECK(count(run.marks, "hit") <= 4);
-      CHECK(count(run.marks, "leave") == count(run.marks, "reach"));
+      CHECK(count(run.marks, "reach") >= 1);
+      CHECK(count(run.marks, "hit") == count(run.marks, "leave"));
+      CHECK(run.least > 0.25);
+    }
+}
+
+TEST_CASE("TangentBug gets out where what it saw free far away was not: poles that stand closer than it is wide") {
+  // From the bottom of the U the goal is in sight between the poles of a fence, far away and through gaps that are open in one scan and not in the next.
+  const LetterMap fence{{".........................", "...............#.........", ".....................#...", "...............#.........", ".....................#...", "S..............#........T",
+                         ".....................#...", "...............#.........", ".....................#...", "...............#.........", "........................."}};
+  for (const LetterMap& map : {fence, fence.mirrored()})
+    for (const char* hand : {"left", "right"}) {
+      const Run run = drive(map, "tangent_bug", hand, real);
+      CAPTURE(hand);
+      CHECK(run.last.outcome == Outcome::reached);
+      CHECK(run.length < 2.0 * shortest(map, 0.6));
+      CHECK(run.least > 0.25);
+    }
+}
+
+TEST_CASE("TangentBug does not slide into the band along a wall for a goal that lies in it") {
+  // The goal is 0.35 m off the wall, beside its corner, the robot keeps 0.6 m.
+  const LetterMap wall{{"............", "............", "S...........", "............", "............", ".....#####..", ".....#####..", ".....#####..", "............"}};
+  for (const bool mirrored : {false, true})
+    for (const char* hand : {"left", "right"}) {
+      const LetterMap map = mirrored ? wall.mirrored() : wall;
+      const glm::dvec2 start = map.find('S'), goal(4.65, mirrored ? 5.5 : 3.5);
+      const Run run = drive(TestWorld{{}, map, {}}, to(goal.x, goal.y, "tangent_bug", hand), {start, bearing(goal - start)}, real);
+      CAPTURE(hand);
+      CHECK(run.last.outcome == Outcome::unreachable);
       CHECK(run.least > 0.25);
     }
 }
@@ -82,12 +111,12 @@ TEST_CASE("a FarView sees the end of a wall, joins what the robot cannot pass, a
   REQUIRE(right);
   CHECK(left->heading == doctest::Approx(-right->heading).epsilon(0.1));
   CHECK(left->heading == doctest::Approx(std::asin(1.66 / 5.0)).epsilon(0.1));
-  CHECK(view.nearest_place({20.0, 0.0}).distance < 19.0 - 3.5);
-  const double before = view.sight();
-  view.trust_less();
-  CHECK(view.sight() < 0.6 * before);
-  view.trust_more();
-  CHECK(view.sight() == doctest::Approx(before));
+  const auto place = view.place_nearer({20.0, 0.0}, 18.0);
+  REQUIRE(place);
+  CHECK(place->distance < 19.0 - 3.5);
+  CHECK(glm::distance(place->at, glm::dvec2(20.0, 0.0)) == doctest::Approx(place->distance));
+  CHECK_FALSE(view.place_nearer({20.0, 0.0}, place->distance));      // none is nearer than the nearest
+  CHECK_FALSE(view.place_nearer({20.0, 0.0}, 19.0 - view.sight()));  // nor any out of sight
   // two thin poles, 1 m apart, with 1.2 m needed: the way between them ends at a wall
   look({{{4.0, 0.5}, 0.08}, {{4.0, -0.5}, 0.08}}, 5.0);
   CHECK(view.free_toward({9.0, 0.0}) < 2.8);
