@@ -101,13 +101,13 @@ bool Pilot::blocked_toward(const glm::dvec2& point) const {
   if (speed_now_ > gap_ && std::abs(bearing(pose_.to_inner(point))) > radians(60.0)) return false;
   const auto way = way_to(point, gap_);
   if (way.disc == none || way.distance >= gap_) return false;
+  if (ahead(way, point)) return true;
   // By a wider margin what is passed by on one side: a straight way along a wall must not be open at one glance and blocked at the next.
-  const glm::dvec2 ahead = glm::normalize(point - pose_.position), to = discs_[way.disc].centre - pose_.position;
-  const auto left = [&ahead](const glm::dvec2& v) { return ahead.x * v.y - ahead.y * v.x > 0.0; };
-  if (glm::dot(ahead, to) > 0.5 * glm::length(to)) return true;
+  const glm::dvec2 on = glm::normalize(point - pose_.position), to = discs_[way.disc].centre - pose_.position;
+  const auto left = [&on](const glm::dvec2& v) { return on.x * v.y - on.y * v.x > 0.0; };
   for (const GrownDisc& disc : discs_) {
     const glm::dvec2 other = disc.centre - pose_.position;
-    const double along = glm::dot(ahead, other), across = std::abs(ahead.x * other.y - ahead.y * other.x);
+    const double along = glm::dot(on, other), across = std::abs(on.x * other.y - on.y * other.x);
     if (left(other) != left(to) && along > 0.0 && along < keep_ && across < disc.radius) return true;  // a gap
   }
   const double off = bearing(pose_.to_inner(point));
@@ -145,7 +145,16 @@ bool Pilot::blocked_by_other(const glm::dvec2& point) const {
   return true;
 }
 
-Command Pilot::go_to(const glm::dvec2& point) const { return drive(bearing(pose_.to_inner(point)), way_to(point, 2.0 * gap_).distance); }
+bool Pilot::ahead(const Way& way, const glm::dvec2& point) const {
+  const glm::dvec2 on = point - pose_.position, to = discs_[way.disc].centre - pose_.position;
+  return glm::dot(on, to) > 0.5 * glm::length(on) * glm::length(to);
+}
+
+Command Pilot::go_to(const glm::dvec2& point) const {
+  Way way = way_to(point, gap_);
+  if (way.disc != none && !ahead(way, point)) way = way_to(point, 2.0 * gap_);
+  return drive(bearing(pose_.to_inner(point)), way.distance);
+}
 
 void Pilot::touch_wall_toward(const glm::dvec2& point) {
   const auto way = way_to(point, gap_);

@@ -66,6 +66,8 @@ class Pilot {
   /// The same for discs that are nowhere larger than the distance that the robot has now: what brakes a robot that came too near must not keep it there.
   Way way_out(double heading, double shrink, double limit) const;
   Way way_to(const glm::dvec2& point, double shrink) const;
+  /// What stops a way to a point stands in it, and not beside it.
+  bool ahead(const Way& way, const glm::dvec2& point) const;
   bool roll_on(Hand hand);
   /// Lobes tell on which arc there is matter, not where on it: the robot keeps away from all of the arc, by headings that are open.
   Command follow_arcs(Hand hand);
