@@ -16,8 +16,8 @@ struct Study {
 const std::vector<Study>& studies() {
   static const std::vector<Study> list = {
       {"maps", "every map of a folder, beside the exact point robot", study_maps, 10, 0, {"bug1", "bug2", "tangent_bug"}},
-      {"rooms", "rooms like those of 2019, beside what was published", study_rooms, 40, 10, {"bug1", "bug2", "bug2_2012", "tangent_bug", "alg1", "alg2", "com", "i_bug", "dist_bug"}},
-      {"drift", "the same with odometry that drifts", study_drift, 12, 4, {"bug1", "bug2", "alg1", "alg2", "com", "i_bug", "tangent_bug"}},
+      {"rooms", "rooms like those of 2019, beside what was published", study_rooms, 30, 8, {"bug1", "bug2", "bug2_2012", "tangent_bug", "alg1", "alg2", "com", "i_bug", "dist_bug"}},
+      {"drift", "the same with odometry that drifts", study_drift, 8, 2, {"bug1", "bug2", "alg1", "alg2", "com", "i_bug", "tangent_bug"}},
       {"trade", "bumpers, rules and rays against wrong verdicts", study_trade, 2, 0, {"bug2"}},
       {"cost", "wall time of lean runs", study_cost, 5, 0, {"bug1", "bug2", "tangent_bug"}},
   };

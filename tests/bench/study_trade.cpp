@@ -55,12 +55,13 @@ Row row_of(const Row& words, const Sum& sum, double cost) {
   return row;
 }
 
-/// Wrong shares of the rules, over numbers of bumpers or rays; places on the axis are those of the list.
-Plot curves(const std::string& title, const std::string& label, const std::map<std::pair<std::size_t, int>, Sum>& sums) {
+/// Wrong shares of the rules, over numbers of bumpers or rays up to `high`.
+Plot curves(const std::string& title, const std::string& label, double high, const std::map<std::pair<std::size_t, int>, Sum>& sums) {
   Plot plot;
   plot.title = title;
   plot.x.label = label;
   plot.x.low = 0.0;
+  plot.x.high = high;
   plot.y = {"wrong verdicts, %", -2.0, 102.0};
   for (std::size_t r = 0; r < rules().size(); ++r) {
     std::vector<glm::dvec2> points;
@@ -115,7 +116,7 @@ void study_trade(const Options& options) {
   for (const auto& [key, sum] : by_bumpers) rows_of_bumpers.push_back(row_of({rules()[key.first].name, std::to_string(key.second)}, sum, standard));
 
   const std::string words = fmt::format("{} with {} problems, {} of each of the ten families, range noise 0.03 m", options.planners.front(), problems.size(), options.problems);
-  const Sheet sheet{"Bumpers, rules and rays", {words}, 1100, {{340.0, {curves("All numbers of bumpers together", "rays per scan", by_rays)}}, {340.0, {curves("All numbers of rays together", "bumpers", by_bumpers)}}}};
+  const Sheet sheet{"Bumpers, rules and rays", {words}, 1100, {{340.0, {curves("All numbers of bumpers together", "rays per scan", 370.0, by_rays)}}, {340.0, {curves("All numbers of rays together", "bumpers", 37.0, by_bumpers)}}}};
   or_exit(sheet.write(options.into / "trade.png"));
   or_exit(write_file(options.into / "trade.csv", csv(combinations, attempts)));
   publish(options, "trade",
