@@ -57,10 +57,11 @@ void study_maps(const Options& options) {
                     t.bound_use > 0.0 ? fixed(t.bound_use) : "-", fixed(t.least_clearance_m, 3)});
   }
   std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return (a[0] == "all") != (b[0] == "all") ? b[0] == "all" : a[0] < b[0]; });
-  const Row head = {"map", "planner", "problems", "unreachable", "right", "wrong", "ambiguous", "collisions", "length / shortest", "length / D (p90)", "exact point robot", "length / bound, worst", "clearance, m"};
+  const Row head = {"map", "planner", "problems", "unreachable", "right", "wrong", "ambiguous", "collisions", "length / shortest", "length / D (p90)", "exact point robot", "length / bound, worst",
+                    "clearance, m"};
   publish(options, "maps",
-          made_by(options, fmt::format("{} runs, {:.0f} hours simulated; a hull of 0.15 m radius, a clearance of 0.1 m, MovingAI cells of 1 m, and a vehicle of 2 m/s, 4 m/s², 360 °/s and 1440 °/s² that "
-                                       "is nobody's, so that long ways take less time.",
+          made_by(options, fmt::format("{} runs, {:.0f} hours simulated; a hull of 0.15 m radius, a clearance of 0.1 m, MovingAI cells of 1 m, and a vehicle of 2 m/s, 4 m/s², 360 °/s "
+                                       "and 1440 °/s² that is nobody's, so that long ways take less time.",
                                        attempts.size(), hours({attempts}))) +
               markdown(head, rows, 2));
 }

@@ -55,7 +55,8 @@ struct Variant {
   Mission lean;
   std::string planner;
 };
-/// Runs every problem in every way, the hand by turns left and right; planners without a theorem are stopped after 3 x the bound of Bug1 + 100 m. The attempts of each variant, in the order of the problems, the same for any number of jobs (wall times apart).
+/// Runs every problem in every way, the hand by turns left and right; planners without a theorem are stopped after 3 x the bound of Bug1 + 100 m. The attempts of each
+/// variant, in the order of the problems, the same for any number of jobs (wall times apart).
 std::vector<std::vector<Attempt>> run_variants(const std::vector<Judged>& problems, const std::vector<Variant>& variants, int jobs);
 
 /// Tells on stderr how far a study has come: "37 of 200 problems, 612 x real time".

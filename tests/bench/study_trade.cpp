@@ -116,12 +116,16 @@ void study_trade(const Options& options) {
   for (const auto& [key, sum] : by_bumpers) rows_of_bumpers.push_back(row_of({rules()[key.first].name, std::to_string(key.second)}, sum, standard));
 
   const std::string words = fmt::format("{} with {} problems, {} of each of the ten families, range noise 0.03 m", options.planners.front(), problems.size(), options.problems);
-  const Sheet sheet{"Bumpers, rules and rays", {words}, 1100, {{340.0, {curves("All numbers of bumpers together", "rays per scan", 370.0, by_rays)}}, {340.0, {curves("All numbers of rays together", "bumpers", 37.0, by_bumpers)}}}};
+  const Sheet sheet{"Bumpers, rules and rays",
+                    {words},
+                    1100,
+                    {{340.0, {curves("All numbers of bumpers together", "rays per scan", 370.0, by_rays)}}, {340.0, {curves("All numbers of rays together", "bumpers", 37.0, by_bumpers)}}}};
   or_exit(sheet.write(options.into / "trade.png"));
   or_exit(write_file(options.into / "trade.csv", csv(combinations, attempts)));
   publish(options, "trade",
           made_by(options, words + fmt::format("; every number of bumpers (4, 6, 8, 12, 16, 36) with every rule and every number of rays (36, 72, 180, 360), each combination a row of "
-                                               "[trade.csv](navigation_study/trade.csv); {:.0f} hours simulated. *Cost* is wall time of scanning and deciding per simulated second, over that of 8 bumpers, `any` and 180 rays.",
+                                               "[trade.csv](navigation_study/trade.csv); {:.0f} hours simulated. *Cost* is wall time of scanning and deciding per simulated second, over that of "
+                                               "8 bumpers, `any` and 180 rays.",
                                                hours(attempts))) +
               "![Wrong verdicts over rays and bumpers](navigation_study/trade.png)\n\n" +
               markdown({"rule", "rays", "runs", "wrong", "collisions", "length / shortest", "cost"}, rows_of_rays) + "\n" +
