@@ -44,15 +44,15 @@ void study_drift(const Options& options) {
       const DriftTally t = drift_tally(attempts[v], variants[v].lean.planner.goal_tolerance_m, slack);
       failures.emplace_back(sigmas[s], 100.0 * share(t.false_failure, t.reachable));
       successes.emplace_back(sigmas[s], 100.0 * share(t.false_success, t.runs));
-      rows.push_back({options.planners[p], fmt::format("{}", sigmas[s]), percent(t.success, t.reachable), percent(t.false_failure, t.reachable), percent(t.false_success, t.runs),
-                      std::to_string(t.collisions)});
+      rows.push_back({options.planners[p], fmt::format("{}", sigmas[s]), percent(t.success, t.reachable),
+                      percent(t.false_failure, t.reachable), percent(t.stopped, t.reachable), percent(t.false_success, t.runs), std::to_string(t.collisions)});
     }
     failure.add(options.planners[p], p, std::move(failures));
     success.add(options.planners[p], p, std::move(successes));
   }
   const Sheet sheet{"Odometry that drifts", {words + ", at 0.35 m/s"}, 1100, {{380.0, {failure.plot}}, {380.0, {success.plot}}}};
   or_exit(sheet.write(options.into / "drift.png"));
-  const Row head = {"planner", "σ", "reached", "false failure", "false success", "collisions"};
+  const Row head = {"planner", "σ", "reached", "false failure", "of it stopped", "false success", "collisions"};
   publish(options, "drift",
           made_by(options, words + fmt::format(", at 0.35 m/s, {:.0f} s at most; {:.0f} hours simulated. *Reached*: of those that can be, said so and within 1.1 m of the goal. "
                                                "*False failure*: of those that can be. *False success*: of all.",

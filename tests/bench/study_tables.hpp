@@ -65,6 +65,7 @@ struct DriftTally {
   std::size_t reachable = 0, runs = 0;  ///< of problems that are not ambiguous
   std::size_t success = 0;              ///< said reached, and was within `slack_m` of the goal's tolerance
   std::size_t false_failure = 0;        ///< said unreachable, or was stopped, though the goal can be reached
+  std::size_t stopped = 0;              ///< those of them that were stopped
   std::size_t false_success = 0;        ///< said reached, and was farther away than that
   std::size_t collisions = 0;
 };
@@ -78,6 +79,7 @@ inline DriftTally drift_tally(const std::vector<Attempt>& attempts, double goal_
     tally.collisions += a.collided();
     tally.success += reachable && a.verdict == Verdict::Kind::reached && near;
     tally.false_success += a.verdict == Verdict::Kind::reached && !near;
+    tally.stopped += reachable && a.verdict == Verdict::Kind::stopped;
     tally.false_failure += reachable && (a.verdict == Verdict::Kind::unreachable || a.verdict == Verdict::Kind::stopped);
   }
   return tally;

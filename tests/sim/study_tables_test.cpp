@@ -43,6 +43,7 @@ TEST_CASE("false failures are of goals that can be reached, false successes of a
   CHECK(t.reachable == 5);
   CHECK(t.success == 1);
   CHECK(t.false_failure == 2);
+  CHECK(t.stopped == 1);
   CHECK(t.false_success == 2);
   CHECK(t.collisions == 1);
 }
