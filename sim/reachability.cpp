@@ -81,6 +81,8 @@ std::vector<std::string> hands_of(const std::string& hand, std::uint64_t number)
   return {hand};
 }
 
+}  // namespace
+
 Result<Attempt> attempt(const Mission& mission, const Problem& problem, const Judgement& judgement, const Scene& scene) {
   auto simulation = Simulation::create(mission, scene);
   if (!simulation) return simulation.error();
@@ -103,9 +105,13 @@ Result<Attempt> attempt(const Mission& mission, const Problem& problem, const Ju
   a.simulated_s = simulation->time();
   a.cell_m = judgement.cell_m;
   a.doubt_m = judgement.doubt_m;
+  a.decisions = simulation->totals().decisions;
+  a.times = simulation->phase_times();
   a.score = score_of(a.expected, a.verdict, a.goal_distance_m, mission.planner.goal_tolerance_m);
   return a;
 }
+
+namespace {
 
 /// All attempts at one problem.
 Result<std::vector<Attempt>> attempts_at(const Problem& problem, const Mission& lean, const ReachabilityOptions& options, Places& places) {

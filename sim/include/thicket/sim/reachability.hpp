@@ -55,6 +55,8 @@ struct Attempt {
   double goal_distance_m = 0.0;  ///< at the end, truly
   double simulated_s = 0.0;
   double cell_m = 0.0, doubt_m = 0.0;  ///< of the oracle
+  std::uint64_t decisions = 0;
+  PhaseTimes times;  ///< wall time; what differs from machine to machine is in no table and no CSV row of `thicket reachability`
 
   bool collided() const { return verdict == Verdict::Kind::collided; }
   /// It reached a goal that can be reached, so that the bound holds.
@@ -65,6 +67,9 @@ struct Attempt {
 /// Right: reached (and truly within the goal's tolerance) what is reachable, unreachable what is not. Wrong: the opposite, stopped, and any collision, of an ambiguous
 /// problem too.
 Score score_of(Expected expected, Verdict::Kind verdict, double goal_distance_m, double goal_tolerance_m);
+
+/// Runs a mission that `mission_of` has made to its end, in the problem's scene, and judges it. Errors: as `Simulation::create`.
+Result<Attempt> attempt(const Mission& mission, const Problem& problem, const Judgement& judgement, const Scene& scene);
 
 /// How far a study has come.
 struct ReachabilityProgress {
