@@ -45,7 +45,8 @@ void BoundaryWalk::advance(const Pose2& pose) {
     length_at_met_ = length_;
   }
   if (closed_) return;
-  if (milestone_.length > 0.0 && rejoins(milestone_)) strayed_ = true;
+  // (Turning on the spot in a narrow passage is no loop: here only length counts.)
+  if (milestone_.length > 0.0 && length_ - milestone_.length > shortest_outside() && rejoins(milestone_)) strayed_ = true;
   if (length_ > std::max(2.0 * milestone_.length, 2.0 * pi * keep_)) milestone_ = {pose, length_, turned_};
   // Short against any boundary (none is shorter than the circle around a point, 2 pi keep), and short enough to lie on the one that was hit.
   const bool away = length_ > 3.0 * same_place_ && length_ < 1.5 * keep_ + run_out_;
@@ -53,7 +54,7 @@ void BoundaryWalk::advance(const Pose2& pose) {
 }
 
 bool BoundaryWalk::rejoins(const TrackPoint& point) const {
-  const bool around = length_ - point.length > 1.6 * pi * keep_ || std::abs(std::abs(turned_ - point.turned) - 2.0 * pi) < radians(75.0);
+  const bool around = length_ - point.length > shortest_outside() || std::abs(std::abs(turned_ - point.turned) - 2.0 * pi) < radians(75.0);
   if (!around || std::abs(wrap_angle(current_.yaw - point.pose.yaw)) > radians(75.0)) return false;
   return distance_to_segment(point.pose.position, previous_.position, current_.position) <= same_place_;
 }

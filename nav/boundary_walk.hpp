@@ -49,6 +49,8 @@ class BoundaryWalk {
     double length = 0.0, turned = 0.0;
   };
   bool rejoins(const TrackPoint& point) const;
+  /// The circle around a point, less a fifth for cut corners, m.
+  double shortest_outside() const { return 1.6 * pi * keep_; }
 
   glm::dvec2 hit_{0.0, 0.0}, goal_{0.0, 0.0};
   double same_place_ = 0.1, keep_ = 1.0, run_out_ = 0.0;

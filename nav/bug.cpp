@@ -7,6 +7,8 @@ namespace thicket {
 namespace {
 /// As often a boundary may turn out not to be the one that was hit before the planner says so instead of trying again.
 constexpr int most_strays = 10;
+/// To turn round and roll back to where a boundary was left, s.
+constexpr double longest_return = 6.0;
 }  // namespace
 
 Bug::Bug(const PlannerSpec& spec, const VehicleLimits& vehicle)
@@ -14,11 +16,15 @@ Bug::Bug(const PlannerSpec& spec, const VehicleLimits& vehicle)
 
 Decision Bug::decide(const Senses& senses) {
   pilot_.look(senses);
+  time_ = senses.time;
   look_far(senses);
   if (pilot_.at(goal_)) return {{}, Outcome::reached, "at the goal", fmt::format("{:.3f} m from the goal", distance_to_goal())};
   if (!on_boundary_) {
-    const glm::dvec2 target = aim();
-    if (!pilot_.blocked_toward(target)) return {pilot_.go_to(target), Outcome::running, "going to the goal", ""};
+    // What rolled on past the place where it left goes back there first: it is that place that the way is open from.
+    const double beyond = left_at_ ? distance_to_goal() - glm::distance(*left_at_, goal_) : 0.0;
+    if (beyond < 0.25 * pilot_.same_place() || beyond > pilot_.keep() || senses.time > left_time_ + longest_return) left_at_.reset();
+    const glm::dvec2 target = left_at_ ? *left_at_ : aim();
+    if (left_at_ || !pilot_.blocked_toward(target)) return {pilot_.go_to(target), Outcome::running, "going to the goal", ""};
     on_boundary_ = true;
     hand_ = choose_hand(first_hand_);
     pilot_.touch_wall_toward(target);
@@ -57,6 +63,8 @@ Decision Bug::follow(const char* state) {
 
 Decision Bug::leave() {
   on_boundary_ = false;
+  left_at_ = pilot_.pose().position;
+  left_time_ = time_;
   mark("leave", pilot_.pose().position);
   return {pilot_.go_to(aim()), Outcome::running, "leaving the boundary for the goal", ""};
 }

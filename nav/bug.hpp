@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,8 @@ class Bug : public Planner {
   Hand first_hand_;
   Hand hand_;
   bool on_boundary_ = false;
+  double time_ = 0.0, left_time_ = 0.0;  ///< s
+  std::optional<glm::dvec2> left_at_;  ///< the last leave point, until the robot is nearer to the goal than that
   int strays_ = 0;
   double left_for_other_ = INFINITY;  ///< distance to the goal when a boundary was last left for another obstacle
   BoundaryWalk walk_;

@@ -86,6 +86,8 @@ Pilot::Way Pilot::way_out(double heading, double shrink, double limit) const {
   const double margin = 0.5 * gap_, most = nearest_ - margin;
   for (std::size_t i = 0; i < discs_.size(); ++i) {
     const glm::dvec2 to = discs_[i].centre - pose_.position;
+    // In the middle of a passage that is shut: out of it the way that the boundary tells, be it across the middle.
+    if (discs_[i].radius < 0.5 * keep_ && glm::length(to) < discs_[i].radius) continue;
     const double radius = std::min({discs_[i].radius - shrink, most, glm::length(to) - margin}), along = glm::dot(to, ahead), across = to.x * ahead.y - to.y * ahead.x;
     if (along <= 0.0 || std::abs(across) >= radius) continue;
     const double distance = std::max(0.0, along - std::sqrt(radius * radius - across * across) - 2.0 * margin);
@@ -110,10 +112,14 @@ bool Pilot::blocked_toward(const glm::dvec2& point) const {
     const double along = glm::dot(on, other), across = std::abs(on.x * other.y - on.y * other.x);
     if (left(other) != left(to) && along > 0.0 && along < keep_ && across < disc.radius) return true;  // a gap
   }
-  const double off = bearing(pose_.to_inner(point));
-  if (std::abs(off) < radians(10.0) && way_out(off, 2.0 * gap_, gap_).distance <= 0.0) return true;
+  if (stands_before(point)) return true;
   const auto closer = way_to(point, 2.0 * gap_);
   return closer.disc != none && closer.distance < gap_;
+}
+
+bool Pilot::stands_before(const glm::dvec2& point) const {
+  const double off = bearing(pose_.to_inner(point));
+  return std::abs(off) < radians(10.0) && way_out(off, 2.0 * gap_, gap_).distance <= 0.0;
 }
 
 bool Pilot::open_toward(const glm::dvec2& point) const {
@@ -143,6 +149,14 @@ bool Pilot::blocked_by_other(const glm::dvec2& point) const {
       }
   }
   return true;
+}
+
+int Pilot::nearer_side(const glm::dvec2& point) const {
+  const auto way = way_to(point, gap_);
+  if (way.disc == none) return 0;
+  const glm::dvec2 on = point - pose_.position, to = discs_[way.disc].centre - pose_.position;
+  const double sine = (to.x * on.y - to.y * on.x) / (glm::length(to) * glm::length(on));
+  return std::abs(sine) < 0.035 ? 0 : sine > 0.0 ? +1 : -1;
 }
 
 bool Pilot::ahead(const Way& way, const glm::dvec2& point) const {

@@ -30,10 +30,14 @@ class Pilot {
 
   /// The straight way to a point is blocked where the robot stands: it cannot get nearer without giving up its clearance.
   bool blocked_toward(const glm::dvec2& point) const;
+  /// It faces a point and cannot get nearer.
+  bool stands_before(const glm::dvec2& point) const;
   /// The straight way is open for more than a moment. (Neither blocked nor open: too close to call; planners go on with what they do.)
   bool open_toward(const glm::dvec2& point) const;
   /// While following: what blocks the straight way is another obstacle than the one under the hand, as in a gap just as wide as the robot needs.
   bool blocked_by_other(const glm::dvec2& point) const;
+  /// Of what blocks the way to a point: along which side of it the robot comes nearer to the point, +1 left, -1 right; 0: neither clearly, it is met head-on.
+  int nearer_side(const glm::dvec2& point) const;
   /// Drives straight toward a point and brakes for it and for what stands before it.
   Command go_to(const glm::dvec2& point) const;
 

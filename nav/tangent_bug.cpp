@@ -4,7 +4,7 @@
 // of the better end. d_followed: the least distance to T on this boundary. d_reach: the least distance to T of a place that can be reached straight. It leaves for that place where
 // d_reach < d_followed by a margin; there, motion to the goal goes on. So the next boundary is hit nearer to T than any place of this one, and it ends.
 // What the paper does not have is a far place that only seemed free: a wall seen at a low angle is a row of far echoes, and a gap just as wide as the robot needs is open in one scan and
-// not in the next. So a boundary is also left by the rule of i_bug.cpp, which needs no range: where the way to the goal is open and the goal is nearer than at the hit. And a hit that is not nearer to T
+// not in the next. So a boundary is also left by a rule that needs no range: where the way to the goal is open, at a place nearer to it than all of the walk before (I-Bug's, but with the least distance so far for that at the hit). And a hit that is not nearer to T
 // than all before was on the way to a place that only seemed free: that boundary is left by the rule of I-Bug alone. Every hit is then nearer to T than the one before, until one is nearer than
 // all: so it ends. A closed loop proves that there is no way as it does for I-Bug.
 #include <algorithm>
@@ -55,6 +55,9 @@ class TangentBug final : public Bug {
 
   Hand choose_hand(Hand first) override {
     place_.reset();
+    // Where only one end is in sight, that is not what makes it the better one: on along the side that leads nearer, as the motion to the goal would.
+    if (!view_.tangent(goal(), +1) || !view_.tangent(goal(), -1))
+      if (const int nearer = pilot().nearer_side(goal())) side_ = nearer;
     if (side_ == 0) better_end();
     return side_ == 0 ? first : side_ > 0 ? Hand::right : Hand::left;
   }
@@ -66,7 +69,8 @@ class TangentBug final : public Bug {
   }
 
   Decision on_boundary() override {
-    if (distance_to_goal() < glm::distance(walk().hit(), goal()) - pilot().same_place() && leads_away()) return leave();
+    const bool nearest_so_far = distance_to_goal() < walk().closest_distance() + 0.5 * pilot().same_place();
+    if (nearest_so_far && distance_to_goal() < glm::distance(walk().hit(), goal()) - pilot().same_place() && leads_away()) return leave();
     if (believes_ && walk().armed()) {
       const auto reach = view_.place_nearer(goal(), walk().closest_distance() - 2.0 * pilot().same_place());
       if (reach && pilot().open_toward(reach->at)) {

@@ -121,7 +121,8 @@ Result<std::vector<Attempt>> attempts_at(const Problem& problem, const Mission& 
   std::vector<Attempt> attempts;
   for (const std::string& planner : options.planners) {
     for (const std::string& hand : hands_of(options.hand, problem.number)) {
-      const Mission mission = mission_of(lean, problem, judgement, planner, hand);
+      Mission mission = mission_of(lean, problem, judgement, planner, hand);
+      if (options.finer_for_narrow) see_what_is_narrow(mission, *problem.world);
       auto one = attempt(mission, problem, judgement, (*place)->scene);
       if (!one) return one.error();
       if ((one->score == Score::wrong || one->over_bound()) && !options.keep_failures.empty())
@@ -200,6 +201,30 @@ Result<Mission> lean_mission(const std::vector<Override>& changes) {
 Robot robot_of(const Mission& mission) { return {mission.vehicle, mission.planner.clearance_m, mission.planner.goal_tolerance_m}; }
 
 double noise_of(const Mission& mission) { return mounted(mission.sensors.front()).range_noise_m; }
+
+namespace {
+
+/// The width of the narrowest solid, m.
+double narrowest(const World& world) {
+  double least = infinity;
+  for (const Solid& solid : world.solids) {
+    if (const auto* box = std::get_if<Box>(&solid.shape)) least = std::min({least, box->size.x, box->size.y});
+    if (const auto* wall = std::get_if<Wall>(&solid.shape)) least = std::min(least, wall->thickness);
+    if (const auto* cylinder = std::get_if<Cylinder>(&solid.shape)) least = std::min(least, 2.0 * cylinder->radius);
+    if (const auto* sphere = std::get_if<Sphere>(&solid.shape)) least = std::min(least, 2.0 * sphere->radius);
+  }
+  return least;
+}
+
+}  // namespace
+
+void see_what_is_narrow(Mission& mission, const World& world) {
+  auto* radar = std::get_if<ScanningRadarSpec>(&mission.sensors.front());
+  if (!radar) return;
+  // Two metres off, where there is room to brake, the side rays, a third of a step apart, leave nothing out; down to 480 rays.
+  radar->step_deg = std::min(radar->step_deg, std::max(0.75, degrees(3.0 * narrowest(world) / 2.0)));
+  radar->side_offset_m = radar->range_max_m * std::tan(radians(radar->step_deg / 3.0));
+}
 
 Mission mission_of(const Mission& lean, const Problem& problem, const Judgement& judgement, const std::string& planner, const std::string& hand) {
   Mission mission = lean;

@@ -146,6 +146,8 @@ int study_reachability(const ReachabilityArguments& arguments) {
   ReachabilityOptions options;
   if (!arguments.planners.empty()) options.planners = arguments.planners;
   options.hand = arguments.hand;
+  // Who asks for rays, or for another sensor, gets them.
+  options.finer_for_narrow = std::none_of(changes->begin(), changes->end(), [](const Override& change) { return change.key == "sensor.step_deg" || change.key == "sensor.preset"; });
   options.jobs = arguments.jobs;
   options.keep_failures = arguments.keep_failures;
   Bar bar(arguments.quiet);

@@ -36,6 +36,9 @@ double noise_of(const Mission& mission);
 /// twice the time that this takes at cruising speed + 10 minutes, unless `lean` has limits of its own.
 Mission mission_of(const Mission& lean, const Problem& problem, const Judgement& judgement, const std::string& planner, const std::string& hand);
 
+/// More rays for the scanning radar of a mission whose world has posts, slivers or walls that it could miss until it is too late to brake; no effect on other sensors.
+void see_what_is_narrow(Mission& mission, const World& world);
+
 enum class Score { right, wrong, ambiguous };
 const char* to_string(Score score);
 
@@ -80,6 +83,7 @@ struct ReachabilityProgress {
 struct ReachabilityOptions {
   std::vector<std::string> planners = {"bug1", "bug2", "tangent_bug"};
   std::string hand = "alternate";  ///< "left" | "right" | "both" | "alternate": left for even numbers of problems, right for odd ones
+  bool finer_for_narrow = true;    ///< `see_what_is_narrow` for every problem
   double cell_m = 0.05;            ///< of the oracle
   int jobs = 0;                    ///< threads; 0: as many as there are cores
   std::filesystem::path keep_failures;  ///< folder for missions that repeat each wrong run; empty: none
