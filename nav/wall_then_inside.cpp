@@ -62,22 +62,31 @@ class WallThenInside final : public Explorer {
 
   void start_lanes() {
     phase_ = Phase::inside;
+    const double inset = 2.0 * pilot().same_place();  // a lane that ended on the wall's own way would be blocked before its end
     for (const int across : {1, 0}) {
       const int along = 1 - across;
       bool back = false;
       for (double at = low_[across] + lane(); at < high_[across]; at += lane(), back = !back) {
         glm::dvec2 from, to;
         from[across] = to[across] = at;
-        from[along] = back ? high_[along] : low_[along];
-        to[along] = back ? low_[along] : high_[along];
+        from[along] = back ? high_[along] - inset : low_[along] + inset;
+        to[along] = back ? low_[along] + inset : high_[along] - inset;
         lanes_.push_back(from);
         lanes_.push_back(to);
       }
     }
+    once_ = lanes_.size();
   }
 
   Decision sweep() {
-    while (next_ < lanes_.size() && (pilot().at(lanes_[next_]) || pilot().blocked_toward(lanes_[next_]))) ++next_;
+    while (next_ < lanes_.size()) {
+      const glm::dvec2 end = lanes_[next_];
+      if (!pilot().at(end)) {
+        if (!pilot().blocked_toward(end)) break;
+        if (next_ < once_) lanes_.push_back(end);  // again when all others are done: from elsewhere the way to it may be open
+      }
+      ++next_;
+    }
     if (next_ == lanes_.size()) return explored("the wall and the inside are done");
     return go_to(lanes_[next_], "lanes inside of the wall");
   }
@@ -93,7 +102,7 @@ class WallThenInside final : public Explorer {
   std::size_t islands_ = 0;
   glm::dvec2 low_{INFINITY, INFINITY}, high_{-INFINITY, -INFINITY};  ///< of all walls that were followed
   std::vector<glm::dvec2> lanes_;                                    ///< their ends, in order
-  std::size_t next_ = 0;
+  std::size_t next_ = 0, once_ = 0;                                  ///< of these: the one that it goes to, and how many there were at first
 };
 
 }  // namespace

@@ -110,9 +110,4 @@ TEST_CASE("four lobes: straight, around a disc and around a wall to the goal") {
   check_reached(wall);
 }
 
-
-TEST_CASE("four lobes: past posts that are between the lobes now and then") {
-  check_reached({{{1.5, 0.15}, 0.05}, {{2.2, -0.7}, 0.05}, {{2.2, 0.9}, 0.05}, {{3.3, 0.0}, 0.05}});
-}
-
 }  // namespace thicket

@@ -102,7 +102,7 @@ TEST_CASE("a preset may be a file of one's own") {
 
 TEST_CASE("presets and types that are wrong, missing, or do not fit") {
   CHECK(faults_of("preset = \"usarsim2021\"") ==
-        "s.toml:1:10: there is no sensor preset 'usarsim2021', expected one of 'k2pi', 'navtech', 'urg04lx', 'usarsim2012', 'utm30lx', 'x4m05' or a file (did you mean "
+        "s.toml:1:10: there is no sensor preset 'usarsim2021', expected one of 'bumpers', 'k2pi', 'navtech', 'urg04lx', 'usarsim2012', 'utm30lx', 'x4m05' or a file (did you mean "
         "'usarsim2012'?)");
   CHECK(faults_of("preset = 5") == "s.toml:1:10: 'preset' is an integer, expected a text in quotes");
   CHECK(faults_of("preset = \"utm30lx\"\ntype = \"scanning_radar\"") ==
@@ -111,7 +111,7 @@ TEST_CASE("presets and types that are wrong, missing, or do not fit") {
         "s.toml:1:8: 'type' is 'lidra', expected one of 'scanning_radar', 'lobe_radar', 'lidar' (did you mean 'lidar'?)");
   CHECK(faults_of("type = true") == "s.toml:1:8: 'type' is true or false, expected one of 'scanning_radar', 'lobe_radar', 'lidar'");
   CHECK(faults_of("name = \"x\"") ==
-        "s.toml:1:1: [[sensor]] lacks 'type' or 'preset', expected a type of 'scanning_radar', 'lobe_radar', 'lidar', or a preset of 'k2pi', "
+        "s.toml:1:1: [[sensor]] lacks 'type' or 'preset', expected a type of 'scanning_radar', 'lobe_radar', 'lidar', or a preset of 'bumpers', 'k2pi', "
         "'navtech', 'urg04lx', 'usarsim2012', 'utm30lx', 'x4m05'");
 }
 
