@@ -1,4 +1,5 @@
 #include "thicket/base/schema.hpp"
+#include "thicket/worlds/scene.hpp"
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
@@ -14,7 +15,6 @@ using namespace thicket;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Base {
   std::string word = "some";
