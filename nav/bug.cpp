@@ -21,10 +21,10 @@ Decision Bug::decide(const Senses& senses) {
   if (pilot_.at(goal_)) return {{}, Outcome::reached, "at the goal", fmt::format("{:.3f} m from the goal", distance_to_goal())};
   if (!on_boundary_) {
     // What rolled on past the place where it left goes back there first: it is that place that the way is open from.
-    const double beyond = left_at_ ? distance_to_goal() - glm::distance(*left_at_, goal_) : 0.0;
-    if (beyond < 0.25 * pilot_.same_place() || beyond > pilot_.keep() || senses.time > left_time_ + longest_return) left_at_.reset();
-    const glm::dvec2 target = left_at_ ? *left_at_ : aim();
-    if (left_at_ || !pilot_.blocked_toward(target)) return {pilot_.go_to(target), Outcome::running, "going to the goal", ""};
+    const double beyond = returning_ ? distance_to_goal() - glm::distance(*left_at_, goal_) : 0.0;
+    if (returning_ && (beyond < 0.25 * pilot_.same_place() || beyond > pilot_.keep() || pilot_.distance_to(*left_at_) < pilot_.same_place() || senses.time > left_time_ + longest_return)) returning_ = false;
+    const glm::dvec2 target = returning_ ? *left_at_ : aim();
+    if (returning_ || !pilot_.blocked_toward(target)) return {pilot_.go_to(target), Outcome::running, "going to the goal", ""};
     on_boundary_ = true;
     hand_ = choose_hand(first_hand_);
     pilot_.touch_wall_toward(target);
@@ -36,6 +36,12 @@ Decision Bug::decide(const Senses& senses) {
   if (pilot_.wall_is_gone()) return lost("the boundary was not there any more");
   if (walk_.strayed() && !walk_.closed()) return lost("the boundary that was followed did not lead back to where it was hit");
   return on_boundary();
+}
+
+Hand Bug::choose_hand(Hand first) {
+  if (!left_at_ || pilot_.distance_to(*left_at_) > pilot_.keep()) return first;
+  const int nearer = pilot_.nearer_side(goal_);
+  return nearer == 0 ? first : nearer > 0 ? Hand::right : Hand::left;
 }
 
 void Bug::begin_walk() { walk_ = BoundaryWalk(pilot_.pose(), goal_, pilot_.same_place(), pilot_.keep(), pilot_.stopping_distance()); }
@@ -64,6 +70,7 @@ Decision Bug::follow(const char* state) {
 Decision Bug::leave() {
   on_boundary_ = false;
   left_at_ = pilot_.pose().position;
+  returning_ = true;
   left_time_ = time_;
   mark("leave", pilot_.pose().position);
   return {pilot_.go_to(aim()), Outcome::running, "leaving the boundary for the goal", ""};

@@ -27,8 +27,9 @@ class Bug : public Planner {
   virtual void look_far(const Senses&) {}
   /// Where to go straight while no boundary is followed.
   virtual glm::dvec2 aim() { return goal_; }
-  /// The hand that goes on the wall at a hit; `first` is the one of the spec.
-  virtual Hand choose_hand(Hand first) { return first; }
+  /// The hand that goes on the wall at a hit; `first` is the one of the spec. That is the default, but for a hit right beside the last leave point, where the way to the goal grazes what was left: there
+  /// it goes on the way that leads nearer, and not all around again. (No theorem asks for the same side at every hit.)
+  virtual Hand choose_hand(Hand first);
 
   /// The way from here to the goal does not enter the obstacle that is followed: it is open, or it is something else that stands in it.
   bool leads_away();
@@ -56,7 +57,8 @@ class Bug : public Planner {
   Hand hand_;
   bool on_boundary_ = false;
   double time_ = 0.0, left_time_ = 0.0;  ///< s
-  std::optional<glm::dvec2> left_at_;  ///< the last leave point, until the robot is nearer to the goal than that
+  std::optional<glm::dvec2> left_at_;    ///< the last leave point
+  bool returning_ = false;               ///< to it, until the robot is nearer to the goal than that
   int strays_ = 0;
   double left_for_other_ = INFINITY;  ///< distance to the goal when a boundary was last left for another obstacle
   BoundaryWalk walk_;

@@ -8,7 +8,6 @@
 
 #include "thicket/nav/steering.hpp"
 
-
 namespace thicket {
 
 namespace {
@@ -43,7 +42,6 @@ Pilot::Pilot(const PlannerSpec& spec, const VehicleLimits& vehicle)
 void Pilot::look(const Senses& senses) {
   pose_ = senses.pose;
   speed_now_ = senses.speed;
-  turn_rate_ = senses.turn_rate;
   // The bumpers decide whether there is anything to steer around at all; only then the rays of the scan are looked at one by one.
   senses_ = &senses;
   unseen_.look(senses.contour, pose_, senses.time);
@@ -61,7 +59,7 @@ void Pilot::look(const Senses& senses) {
   discs_ = surroundings_.discs();
   nearest_ = INFINITY;
   for (const GrownDisc& disc : discs_)
-    if (disc.radius > 0.5 * keep_) nearest_ = std::min(nearest_, glm::distance(disc.centre, pose_.position));
+    if (!disc.gate) nearest_ = std::min(nearest_, glm::distance(disc.centre, pose_.position));
 }
 
 double Pilot::distance_to(const glm::dvec2& point) const { return glm::distance(pose_.position, point); }
@@ -87,7 +85,7 @@ Pilot::Way Pilot::way_out(double heading, double shrink, double limit) const {
   for (std::size_t i = 0; i < discs_.size(); ++i) {
     const glm::dvec2 to = discs_[i].centre - pose_.position;
     // In the middle of a passage that is shut: out of it the way that the boundary tells, be it across the middle.
-    if (discs_[i].radius < 0.5 * keep_ && glm::length(to) < discs_[i].radius) continue;
+    if (discs_[i].gate && glm::length(to) < discs_[i].radius) continue;
     const double radius = std::min({discs_[i].radius - shrink, most, glm::length(to) - margin}), along = glm::dot(to, ahead), across = to.x * ahead.y - to.y * ahead.x;
     if (along <= 0.0 || std::abs(across) >= radius) continue;
     const double distance = std::max(0.0, along - std::sqrt(radius * radius - across * across) - 2.0 * margin);
@@ -226,7 +224,8 @@ Command Pilot::follow(Hand hand) {
     const double ahead = points[i].along - start;
     if (points[i].corner && i + 1 < points.size()) {
       const GrownDisc &from = discs_[points[i].disc], &to = discs_[points[i + 1].disc];
-      if (ahead < 0.5 * look_ahead_) surroundings_.shut(from, to);
+      // A robot that cannot stop before it has as good as gone through.
+      if (ahead < 0.5 * look_ahead_ && stopping_distance() < ahead + 0.5 * look_ahead_) surroundings_.shut(from, to, pose_.position);
       const glm::dvec2 before = points[i].position - from.centre, after = points[i].position - to.centre;
       const double corner = std::acos(std::clamp(glm::dot(before, after) / (glm::length(before) * glm::length(after)), -1.0, 1.0));
       if (corner > sharp && glm::distance(points[i].position, pose_.position) > 0.25 * look_ahead_) {

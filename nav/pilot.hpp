@@ -91,7 +91,7 @@ class Pilot {
   glm::dvec2 contact_{0.0, 0.0};  ///< the matter that the hand is on
 
   Pose2 pose_;
-  double turn_rate_ = 0.0, speed_now_ = 0.0, nearest_ = 0.0;
+  double speed_now_ = 0.0, nearest_ = 0.0;
   const Senses* senses_ = nullptr;  ///< while a decision is made
   Surroundings surroundings_;
   Unseen unseen_;                   ///< what was seen lately, of a robot whose sensors leave gaps

@@ -11,6 +11,7 @@ namespace thicket {
 namespace {
 
 constexpr double touching = 1e-9;
+constexpr double behind = 1e6;  // m: as much farther a place counts that is behind a gate
 
 double squared(const glm::dvec2& v) { return v.x * v.x + v.y * v.y; }
 
@@ -25,16 +26,30 @@ std::optional<glm::dvec2> entry(const GrownDisc& i, const GrownDisc& j, int turn
   const glm::dvec2 d = j.centre - i.centre;
   const double square = squared(d), sum = i.radius + j.radius;
   if (square >= sum * sum || square == 0.0) return std::nullopt;
-  const double distance = std::sqrt(square), cosine = (square + i.radius * i.radius - j.radius * j.radius) / (2.0 * distance * i.radius);
-  if (cosine >= 1.0 || cosine <= -1.0) return std::nullopt;  // one holds the other
-  const double sine = std::sqrt(1.0 - cosine * cosine);
-  const glm::dvec2 u = d / distance;
-  // The arc inside j is centred on u; it is entered half of its width before.
-  return glm::dvec2(cosine * u.x + turn * sine * u.y, cosine * u.y - turn * sine * u.x);
+  // Along d, from the centre of i: to the line through both crossings, in units of i's radius; one root and one division for all, as this is asked of every pair.
+  const double along = (square + i.radius * i.radius - j.radius * j.radius) / (2.0 * i.radius), rest = square - along * along;
+  if (rest <= 0.0) return std::nullopt;  // one holds the other
+  const double across = turn * std::sqrt(rest), scale = 1.0 / square;
+  // The arc inside j is centred on d; it is entered half of its width before.
+  return glm::dvec2(scale * (along * d.x + across * d.y), scale * (along * d.y - across * d.x));
 }
 
-/// The direction on disc `i`'s circle nearest to `from` that no other disc covers.
-std::optional<glm::dvec2> nearest_free(const std::vector<GrownDisc>& discs, std::size_t i, const glm::dvec2& from, int turn) {
+/// The straight way to a place leads through a gate: it is on the other side of a passage that is shut.
+bool behind_gate(const std::vector<GrownDisc>& discs, const glm::dvec2& robot, const glm::dvec2& place) {
+  const glm::dvec2 way = place - robot;
+  return std::any_of(discs.begin(), discs.end(), [&](const GrownDisc& gate) {
+    if (!gate.gate) return false;
+    const glm::dvec2 to = gate.centre - robot;
+    const double along = std::clamp(glm::dot(to, way) / std::max(1e-12, squared(way)), 0.0, 1.0);
+    return squared(to - along * way) < gate.radius * gate.radius;
+  });
+}
+
+/// The place on disc `i`'s circle nearest to `robot` that no other disc covers, as a direction from the disc's centre.
+std::optional<glm::dvec2> nearest_free(const std::vector<GrownDisc>& discs, std::size_t i, const glm::dvec2& robot, int turn) {
+  const glm::dvec2 outward = robot - discs[i].centre;
+  const double size = glm::length(outward);
+  const glm::dvec2 from = size > 0.0 ? outward / size : glm::dvec2(1.0, 0.0);
   struct Covered {
     double low, high;  // angles from `from`, counter-clockwise
   };
@@ -66,10 +81,17 @@ std::optional<glm::dvec2> nearest_free(const std::vector<GrownDisc>& discs, std:
   };
   const double forward = go(turn), backward = go(-turn);
   if (std::min(forward, backward) >= 2.0 * pi) return std::nullopt;
-  // Rather back than on: what lies on may be the other side of a passage that is shut.
-  const double angle = backward <= forward + 0.1 ? -turn * backward : turn * forward;
-  const double c = std::cos(angle), s = std::sin(angle);
-  return glm::dvec2(c * from.x - s * from.y, s * from.x + c * from.y);
+  const auto turned = [&from](double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return glm::dvec2(c * from.x - s * from.y, s * from.x + c * from.y);
+  };
+  const glm::dvec2 back = turned(-turn * backward);
+  if (forward == 0.0 && backward == 0.0) return back;
+  // Rather back than on: what lies on may be the other side of a passage that will be found shut; of one that is shut already, in no case.
+  const glm::dvec2 on = turned(turn * forward);
+  const bool back_is_behind = behind_gate(discs, robot, discs[i].centre + discs[i].radius * back), on_is_behind = behind_gate(discs, robot, discs[i].centre + discs[i].radius * on);
+  if (back_is_behind != on_is_behind) return back_is_behind ? on : back;
+  return backward <= forward + 0.1 ? back : on;
 }
 
 }  // namespace
@@ -86,11 +108,10 @@ bool roll(const std::vector<GrownDisc>& discs, const glm::dvec2& contact, const 
   double least = INFINITY;
   for (const auto& [away, i] : near_discs) {
     if (std::abs(away) >= least) break;
-    const glm::dvec2 outward = robot - discs[i].centre;
-    const double size = glm::length(outward);
-    const auto start = nearest_free(discs, i, size > 0.0 ? outward / size : glm::dvec2(1.0, 0.0), turn);
+    const auto start = nearest_free(discs, i, robot, turn);
     if (!start) continue;
-    const double far = glm::distance(discs[i].centre + discs[i].radius * *start, robot);
+    const glm::dvec2 place = discs[i].centre + discs[i].radius * *start;
+    const double far = glm::distance(place, robot) + (behind_gate(discs, robot, place) ? behind : 0.0);
     if (far >= least) continue;
     least = far;
     pivot = i;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace thicket {
@@ -12,6 +13,7 @@ constexpr std::uint16_t none = 0xffff;
 constexpr double memory = 5.0;       // s
 constexpr double most_weight = 20.0; // of an average: it follows a robot whose own pose drifts
 constexpr double shut_radius = 0.15; // of keep: hidden in the corner that two grown discs make, but for passages that are open by a finger's breadth
+constexpr double one_passage = 0.8;  // of keep: gates nearer together than this are of one passage: where it is narrowest another look finds a little elsewhere
 constexpr double borderline = 1.5;   // of keep: discs farther apart than this can be on two sides of a passage that another look finds open
 constexpr double least_radius = 0.93; // of keep: as much narrower a passage may turn out to be than it was when it was found open; a limit, or the robot would creep into every notch
 
@@ -54,9 +56,11 @@ void Surroundings::take(const glm::dvec2& position, double time) {
     Place& known = matter_[i];
     known.weight = std::min(known.weight + 1.0, most_weight);
     known.seen = time;
-    unplace(i);
-    known.position += (position - known.position) / known.weight;
-    place(i);
+    const glm::dvec2 moved = known.position + (position - known.position) / known.weight;
+    const bool same_cell = glm::floor(moved / grain_) == glm::floor(known.position / grain_);
+    if (!same_cell) unplace(i);
+    known.position = moved;
+    if (!same_cell) place(i);
     return;
   }
   if (matter_.size() >= none) return;
@@ -101,10 +105,11 @@ void Surroundings::look(const Contour& contour, const BumperRing& bumpers, const
   note_squeeze(robot);
   for (const glm::dvec2& place : been_) {
     if (squared(place - robot) > 4.0 * reach * reach) continue;
-    for (GrownDisc& disc : discs_) disc.radius = std::min(disc.radius, std::max(least_radius * keep_, glm::distance(place, disc.centre) - 0.01 * keep_));
+    for (GrownDisc& disc : discs_)
+      if (const double square = squared(place - disc.centre); square < 1.03 * keep_ * keep_) disc.radius = std::min(disc.radius, std::max(least_radius * keep_, std::sqrt(square) - 0.01 * keep_));
   }
   for (const glm::dvec2& gate : shut_)
-    if (squared(gate - robot) < reach * reach) discs_.push_back({gate, shut_radius * keep_});
+    if (squared(gate - robot) < reach * reach) discs_.push_back({gate, shut_radius * keep_, true});
 }
 
 bool Surroundings::stray(const Place& place) const {
@@ -115,28 +120,34 @@ bool Surroundings::stray(const Place& place) const {
 void Surroundings::note_squeeze(const glm::dvec2& robot) {
   // Matter close by on both sides: a passage, and the robot is in it.
   const double close = 1.15 * keep_;
-  bool squeezed = false;
-  for (std::size_t i = 0; i < discs_.size() && !squeezed; ++i) {
-    const glm::dvec2 a = discs_[i].centre - robot;
-    if (squared(a) > close * close) continue;
-    for (std::size_t j = 0; j < i && !squeezed; ++j) {
-      const glm::dvec2 b = discs_[j].centre - robot;
-      squeezed = squared(b) < close * close && glm::dot(a, b) < -0.5 * glm::length(a) * glm::length(b);
-    }
+  sides_.clear();
+  for (const GrownDisc& disc : discs_) {
+    const glm::dvec2 a = disc.centre - robot;
+    if (const double square = squared(a); square <= close * close && square > 0.0) sides_.push_back(a / std::sqrt(square));
   }
+  bool squeezed = false;
+  for (std::size_t i = 1; i < sides_.size() && !squeezed; ++i)
+    squeezed = std::any_of(sides_.begin(), sides_.begin() + static_cast<std::ptrdiff_t>(i), [&](const glm::dvec2& b) { return glm::dot(sides_[i], b) < -0.5; });
   if (!squeezed) return;
   const auto near = [&](double distance) { return [&robot, distance](const glm::dvec2& p) { return squared(p - robot) < distance * distance; }; };
-  if (std::any_of(shut_.begin(), shut_.end(), near(0.4 * keep_)) || std::any_of(been_.begin(), been_.end(), near(0.06 * keep_))) return;
+  if (std::any_of(shut_.begin(), shut_.end(), near(one_passage * keep_)) || std::any_of(been_.begin(), been_.end(), near(0.06 * keep_))) return;
   been_.push_back(robot);
 }
 
-void Surroundings::shut(const GrownDisc& a, const GrownDisc& b) {
-  if (glm::distance(a.centre, b.centre) < borderline * keep_ || a.radius < 0.5 * keep_ || b.radius < 0.5 * keep_) return;
+void Surroundings::shut(const GrownDisc& a, const GrownDisc& b, const glm::dvec2& robot) {
+  const glm::dvec2 across = b.centre - a.centre;
+  const double width = glm::length(across);
+  if (width < borderline * keep_ || a.gate || b.gate) return;
   const glm::dvec2 middle = 0.5 * (a.centre + b.centre);
-  for (const glm::dvec2& gate : shut_)
-    if (squared(gate - middle) < 0.09 * keep_ * keep_) return;
-  for (const glm::dvec2& place : been_)
-    if (squared(place - middle) < 0.09 * keep_ * keep_) return;
+  const auto within = [&](double distance) { return [&middle, distance](const glm::dvec2& p) { return squared(p - middle) < distance * distance; }; };
+  // One gate a passage, for the robot could come to stand between two.
+  if (std::any_of(shut_.begin(), shut_.end(), within(one_passage * keep_))) return;
+  // Been in its mouth is not been through it.
+  const auto depth = [&](const glm::dvec2& p) { return (across.x * (p.y - a.centre.y) - across.y * (p.x - a.centre.x)) / width; };
+  const double side = std::copysign(1.0, depth(robot));
+  const auto near = within(0.3 * keep_);
+  if (std::any_of(been_.begin(), been_.end(), [&](const glm::dvec2& p) { return near(p) && side * depth(p) < 0.03 * keep_; })) return;
+  std::erase_if(been_, within(one_passage * keep_));
   shut_.push_back(middle);
 }
 

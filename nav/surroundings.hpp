@@ -16,6 +16,7 @@ namespace thicket {
 struct GrownDisc {
   glm::dvec2 centre{0.0, 0.0};
   double radius = 0.0;
+  bool gate = false;  ///< no matter: the middle of a passage that is taken for a wall
 };
 
 /// Obstacles near the robot, grown to discs.
@@ -32,11 +33,12 @@ class Surroundings {
   /// only one is matter, are not remembered.
   void look(const Contour& contour, const BumperRing& bumpers, const Pose2& pose, double time, double reach);
 
-  /// Within reach and a little more. Radius `keep`, less where the robot has been closer in a passage; small where a passage is shut.
+  /// Within reach and a little more. Radius `keep`, less where the robot has been closer in a passage; small ones for gates.
   const std::vector<GrownDisc>& discs() const { return discs_; }
 
-  /// The passage between two discs was taken for a wall; it will be from now on. No effect on passages far too narrow, for which that goes without saying.
-  void shut(const GrownDisc& a, const GrownDisc& b);
+  /// The passage between two discs was taken for a wall by a robot before it; it will be from now on. No effect on passages far too narrow, for which that goes without saying, nor on those that it has
+  /// been through.
+  void shut(const GrownDisc& a, const GrownDisc& b, const glm::dvec2& robot);
 
  private:
   /// A place of matter, averaged over the times it was seen.
@@ -64,6 +66,7 @@ class Surroundings {
   std::vector<glm::dvec2> been_;       ///< narrow places that the robot has been at
   std::vector<glm::dvec2> shut_;       ///< middles of passages that are taken for walls
   std::vector<GrownDisc> discs_;
+  std::vector<glm::dvec2> sides_;      ///< of a decision: directions to the matter close by
 };
 
 }  // namespace thicket

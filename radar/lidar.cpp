@@ -41,6 +41,7 @@ class Lidar final : public Sensor {
     };
     if (tasks <= 1) task(0);
     else tbb::parallel_for(std::size_t{0}, tasks, task);
+    BeamNoise noise(random, number);
     for (std::size_t b = 0; b < scan.beams.size(); ++b) {
       Beam& beam = scan.beams[b];
       beam.first_echo = static_cast<std::uint32_t>(scan.echoes.size());
@@ -48,8 +49,7 @@ class Lidar final : public Sensor {
       const auto& table = lidar_.range_noise_table_m;
       const double deviation = table.empty() ? spec().range_noise_m : value_at(table, beam.sensed_range);
       if (deviation <= 0.0 || beam.echo_count == 0) continue;
-      const double shift = deviation * random.normal(number, static_cast<std::uint32_t>(b), RandomUse::range_noise, 0)[0];
-      shift_beam(beam, std::span(scan.echoes).subspan(beam.first_echo, beam.echo_count), shift, spec().range_max_m);
+      shift_beam(beam, std::span(scan.echoes).subspan(beam.first_echo, beam.echo_count), deviation * noise.of(b), spec().range_max_m);
     }
   }
 

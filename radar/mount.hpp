@@ -1,7 +1,10 @@
 // Where a sensor sits on its vehicle. Private to the room.
 #pragma once
 
+#include <array>
+
 #include "thicket/base/pose.hpp"
+#include "thicket/base/random.hpp"
 #include "thicket/radar/sensor.hpp"
 
 namespace thicket {
@@ -27,6 +30,25 @@ inline void head(const MountedSpec& spec, const Pose& mount, std::uint16_t senso
   scan.echoes.clear();
   scan.profiles.bins = 0;
 }
+
+/// A standard normal number for each beam of a scan. Four neighbours share a draw: ask in the order of the beams.
+class BeamNoise {
+ public:
+  BeamNoise(const Random& random, std::uint64_t scan) : random_(random), scan_(scan) {}
+  double of(std::size_t beam) {
+    if (const std::size_t four = beam / 4; four != drawn_) {
+      drawn_ = four;
+      numbers_ = random_.normal(scan_, static_cast<std::uint32_t>(four), RandomUse::range_noise, 0);
+    }
+    return numbers_[beam % 4];
+  }
+
+ private:
+  const Random& random_;
+  std::uint64_t scan_;
+  std::size_t drawn_ = static_cast<std::size_t>(-1);
+  std::array<double, 4> numbers_{};
+};
 
 /// One draw of range noise for a beam, the jitter of its trigger: its echoes keep their order and their distances.
 inline void shift_beam(Beam& beam, std::span<Echo> echoes, double shift, double range_max) {

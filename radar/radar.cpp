@@ -364,10 +364,11 @@ class Radar final : public Sensor {
       }
     }
     if (spec().range_noise_m <= 0.0) return;
+    BeamNoise noise(random, scan.number);
     for (std::size_t b = 0; b < scan.beams.size(); ++b) {
-      const double shift = spec().range_noise_m * random.normal(scan.number, static_cast<std::uint32_t>(b), RandomUse::range_noise, 0)[0];
       Beam& beam = scan.beams[b];
-      shift_beam(beam, std::span(scan.echoes).subspan(beam.first_echo, beam.echo_count), shift, spec().range_max_m);
+      if (beam.end == BeamEnd::open && beam.echo_count == 0) continue;
+      shift_beam(beam, std::span(scan.echoes).subspan(beam.first_echo, beam.echo_count), spec().range_noise_m * noise.of(b), spec().range_max_m);
     }
   }
 

@@ -251,7 +251,7 @@ void Receiver::add_noise(const Random& random, std::uint64_t scan, std::uint32_t
   const double white = sum_ == Sum::fields ? std::sqrt(noise_ * noise_ + 0.5 * clutter_ * clutter_) : noise_;
   const auto draw = [&](std::uint32_t first_draw, auto&& use) {
     for (std::size_t bin = 0; bin < bins_; bin += stride)
-      use(bin, random.four_normal(scan, beam, RandomUse::receiver, first_draw + static_cast<std::uint32_t>(bin / stride)));
+      use(bin, random.normal(scan, beam, RandomUse::receiver, first_draw + static_cast<std::uint32_t>(bin / stride)));
   };
   if (white > 0.0) {
     draw(0, [&](std::size_t bin, const std::array<double, 4>& numbers) {

@@ -80,33 +80,6 @@ TEST_CASE("uniform numbers fill the open interval evenly") {
   CHECK(std::abs(chi_squared - (bins - 1)) < 4.0 * std::sqrt(2.0 * (bins - 1)));
 }
 
-TEST_CASE("normal numbers are normal") {
-  const Random random(43, 1);
-  constexpr std::uint32_t count = 100000;
-  double sum = 0.0, squares = 0.0, cubes = 0.0, fourths = 0.0, products = 0.0;
-  std::size_t within_one = 0;
-  for (std::uint32_t i = 0; i < count / 2; ++i) {
-    const auto pair = random.normal(i / 1000, i % 1000, RandomUse::range_noise, 0);
-    products += pair[0] * pair[1];
-    for (const double x : pair) {
-      sum += x;
-      squares += x * x;
-      cubes += x * x * x;
-      fourths += x * x * x * x;
-      within_one += std::abs(x) < 1.0;
-    }
-  }
-  // Variances of the means of x, x^2, x^3, x^4 of N numbers: 1, 2, 15, 96 over N.
-  const double n = count;
-  CHECK(std::abs(sum / n) < 4.0 * std::sqrt(1.0 / n));
-  CHECK(std::abs(squares / n - 1.0) < 4.0 * std::sqrt(2.0 / n));
-  CHECK(std::abs(cubes / n) < 4.0 * std::sqrt(15.0 / n));
-  CHECK(std::abs(fourths / n - 3.0) < 4.0 * std::sqrt(96.0 / n));
-  CHECK(std::abs(products / (n / 2)) < 4.0 * std::sqrt(2.0 / n));
-  const double chance = std::erf(std::numbers::sqrt2 / 2.0);
-  CHECK(std::abs(static_cast<double>(within_one) / n - chance) < 4.0 * std::sqrt(chance * (1.0 - chance) / n));
-}
-
 TEST_CASE("the quantile of a normal number undoes its distribution, deep into both tails") {
   const auto below = [](double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); };
   CHECK(normal_quantile(0.5) == 0.0);
@@ -126,7 +99,7 @@ TEST_CASE("four normal numbers of one draw are normal, independent, and the quan
   std::array<double, 6> products{};
   std::size_t beyond_two = 0;
   for (std::uint32_t i = 0; i < draws; ++i) {
-    const auto numbers = random.four_normal(i / 1000, i % 1000, RandomUse::receiver, i % 7);
+    const auto numbers = random.normal(i / 1000, i % 1000, RandomUse::receiver, i % 7);
     const auto u = random.uniform(i / 1000, i % 1000, RandomUse::receiver, i % 7);
     std::size_t pair = 0;
     for (std::size_t a = 0; a < 4; ++a) {

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "thicket/base/pose.hpp"
-
 namespace thicket {
 namespace {
 
@@ -59,13 +57,7 @@ std::array<double, 4> Random::uniform(std::uint64_t scan, std::uint32_t beam, Ra
   return numbers;
 }
 
-std::array<double, 2> Random::normal(std::uint64_t scan, std::uint32_t beam, RandomUse use, std::uint32_t index) const {
-  const auto u = uniform(scan, beam, use, index);
-  const double radius = std::sqrt(-2.0 * std::log(u[0]));
-  return {radius * std::cos(2.0 * pi * u[1]), radius * std::sin(2.0 * pi * u[1])};
-}
-
-std::array<double, 4> Random::four_normal(std::uint64_t scan, std::uint32_t beam, RandomUse use, std::uint32_t index) const {
+std::array<double, 4> Random::normal(std::uint64_t scan, std::uint32_t beam, RandomUse use, std::uint32_t index) const {
   const auto u = uniform(scan, beam, use, index);
   std::array<double, 4> numbers;
   // First all as if they were in the middle, as 85 % are: that is done for two at a time.

@@ -19,11 +19,8 @@ class Random {
   /// Four independent numbers, uniform in the open interval (0, 1), 32 bits each. `scan` < 2^48, `index` < 2^24.
   std::array<double, 4> uniform(std::uint64_t scan, std::uint32_t beam, RandomUse use, std::uint32_t index) const;
 
-  /// Two independent standard normal numbers (Box & Muller 1958).
-  std::array<double, 2> normal(std::uint64_t scan, std::uint32_t beam, RandomUse use, std::uint32_t index) const;
-
-  /// Four independent standard normal numbers, the quantiles of those of `uniform` (and not the numbers of `normal`): between -6.4 and 6.4, each in about half the time of `normal`.
-  std::array<double, 4> four_normal(std::uint64_t scan, std::uint32_t beam, RandomUse use, std::uint32_t index) const;
+  /// Four independent standard normal numbers, the quantiles of those of `uniform`: between -6.4 and 6.4.
+  std::array<double, 4> normal(std::uint64_t scan, std::uint32_t beam, RandomUse use, std::uint32_t index) const;
 
  private:
   std::uint64_t seed_;
