@@ -218,4 +218,24 @@ GridMap OccupancyMap::to_grid() const {
   return grid;
 }
 
+ProbabilityGrid OccupancyMap::to_probabilities() const {
+  ProbabilityGrid grid;
+  grid.resolution = spec_.resolution_m;
+  const auto all = extent();
+  if (!all) return grid;
+  grid.width = static_cast<int>(all->second.column - all->first.column);
+  grid.height = static_cast<int>(all->second.row - all->first.row);
+  grid.origin = glm::dvec2(static_cast<double>(all->first.column), static_cast<double>(all->first.row)) * spec_.resolution_m;
+  const std::size_t cells = static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height);
+  grid.probability.reserve(cells);
+  grid.through.reserve(cells);
+  for (std::int64_t row = all->first.row; row < all->second.row; ++row)
+    for (std::int64_t column = all->first.column; column < all->second.column; ++column) {
+      const CellView v = view({column, row});
+      grid.probability.push_back(v.known ? static_cast<float>(v.probability) : ProbabilityGrid::unknown);
+      grid.through.push_back(v.sensed_through);
+    }
+  return grid;
+}
+
 }  // namespace thicket

@@ -12,6 +12,7 @@
 
 #include "thicket/base/map_file.hpp"
 #include "thicket/base/pose.hpp"
+#include "thicket/base/probability_grid.hpp"
 #include "thicket/base/schema.hpp"
 #include "thicket/scan/scan.hpp"
 
@@ -67,6 +68,8 @@ class OccupancyMap {
 
   /// Three-valued, for map_server: occupied above 0.65, free below 0.196 unless sensed through, else unknown. The origin is the lower-left corner.
   GridMap to_grid() const;
+  /// All that is known, over the block of cells that `extent` gives; empty for an empty map.
+  ProbabilityGrid to_probabilities() const;
 
  private:
   static constexpr int tile_bits = 6, tile_size = 1 << tile_bits;
