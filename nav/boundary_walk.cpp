@@ -14,9 +14,10 @@ double distance_to_segment(const glm::dvec2& point, const glm::dvec2& from, cons
   return glm::distance(point, from + t * along);
 }
 
-BoundaryWalk::BoundaryWalk(const Pose2& hit, const glm::dvec2& goal, double same_place, double keep, double run_out)
+BoundaryWalk::BoundaryWalk(const Pose2& hit, const glm::dvec2& goal, double same_place, double keep, double run_out, const glm::dvec2& came_from)
     : hit_(hit.position),
       goal_(goal),
+      came_from_(came_from),
       same_place_(same_place),
       keep_(keep),
       run_out_(run_out),
@@ -54,7 +55,10 @@ void BoundaryWalk::advance(const Pose2& pose) {
 }
 
 bool BoundaryWalk::rejoins(const TrackPoint& point) const {
-  const bool around = length_ - point.length > shortest_outside() || std::abs(std::abs(turned_ - point.turned) - 2.0 * pi) < radians(75.0);
+  const double walked = length_ - point.length;
+  // Within a loop no place is farther than half of its length from any other: what came from farther away is not in a cell, it turned on the spot in the mouth of a passage.
+  const bool cell = std::abs(std::abs(turned_ - point.turned) - 2.0 * pi) < radians(75.0) && glm::distance(came_from_, point.pose.position) < 0.5 * walked + same_place_;
+  const bool around = walked > shortest_outside() || cell;
   if (!around || std::abs(wrap_angle(current_.yaw - point.pose.yaw)) > radians(75.0)) return false;
   return distance_to_segment(point.pose.position, previous_.position, current_.position) <= same_place_;
 }

@@ -13,14 +13,14 @@ namespace thicket {
 ///
 /// The loop is closed when the robot comes back onto the beginning of its own track, with witnesses: it passes two places of it one after the other, heading the same way as then (the far side
 /// of a narrow corridor is near too, but is walked the other way), and it has walked at least the circle around a point, the shortest outside there is, or turned once around, as in a cell that
-/// is smaller than that. The beginning of the track and not the hit point alone, because a hit in a notch is not passed again: the robot swings around in it a little
+/// is smaller than that, and that holds where it came from. The beginning of the track and not the hit point alone, because a hit in a notch is not passed again: the robot swings around in it a little
 /// differently each time. How often it has turned since is no witness for long walks: in a dead end both ways round are as short.
 class BoundaryWalk {
  public:
   BoundaryWalk() = default;
   /// `same_place`: two positions are the same within this; `keep`: the distance of the robot's axis from matter, the scale of everything here; `run_out`: what it rolls on after the hit before it can
-  /// turn, which may be along the boundary the other way.
-  BoundaryWalk(const Pose2& hit, const glm::dvec2& goal, double same_place, double keep, double run_out = 0.0);
+  /// turn, which may be along the boundary the other way; `came_from`: a place that the robot has been at, the farther the better.
+  BoundaryWalk(const Pose2& hit, const glm::dvec2& goal, double same_place, double keep, double run_out, const glm::dvec2& came_from);
 
   void advance(const Pose2& pose);
 
@@ -52,7 +52,7 @@ class BoundaryWalk {
   /// The circle around a point, less a fifth for cut corners, m.
   double shortest_outside() const { return 1.6 * pi * keep_; }
 
-  glm::dvec2 hit_{0.0, 0.0}, goal_{0.0, 0.0};
+  glm::dvec2 hit_{0.0, 0.0}, goal_{0.0, 0.0}, came_from_{0.0, 0.0};
   double same_place_ = 0.1, keep_ = 1.0, run_out_ = 0.0;
   Pose2 previous_, current_;
   double length_ = 0.0, turned_ = 0.0;  ///< since the hit, m and rad

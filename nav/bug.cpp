@@ -17,6 +17,7 @@ Bug::Bug(const PlannerSpec& spec, const VehicleLimits& vehicle)
 Decision Bug::decide(const Senses& senses) {
   pilot_.look(senses);
   time_ = senses.time;
+  if (!start_) start_ = pilot_.pose().position;
   look_far(senses);
   if (pilot_.at(goal_)) return {{}, Outcome::reached, "at the goal", fmt::format("{:.3f} m from the goal", distance_to_goal())};
   if (!on_boundary_) {
@@ -44,7 +45,7 @@ Hand Bug::choose_hand(Hand first) {
   return nearer == 0 ? first : nearer > 0 ? Hand::right : Hand::left;
 }
 
-void Bug::begin_walk() { walk_ = BoundaryWalk(pilot_.pose(), goal_, pilot_.same_place(), pilot_.keep(), pilot_.stopping_distance()); }
+void Bug::begin_walk() { walk_ = BoundaryWalk(pilot_.pose(), goal_, pilot_.same_place(), pilot_.keep(), pilot_.stopping_distance(), *start_); }
 
 bool Bug::leads_away() {
   if (pilot_.open_toward(goal_)) return true;

@@ -53,6 +53,7 @@ class Bug : public Planner {
  private:
   Pilot pilot_;
   glm::dvec2 goal_;
+  std::optional<glm::dvec2> start_;  ///< where the run began
   Hand first_hand_;
   Hand hand_;
   bool on_boundary_ = false;

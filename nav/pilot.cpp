@@ -18,6 +18,7 @@ VehicleLimits vehicle_for_steering(VehicleLimits vehicle) {
   return vehicle;
 }
 
+constexpr double longest_stand = 2.0;    // s before a corner of the boundary, facing it
 constexpr double sharp = radians(45.0);  // an inner corner of the boundary that is turned in on the spot
 
 }  // namespace
@@ -214,6 +215,10 @@ Command Pilot::follow(Hand hand) {
   }
   contact_ = discs_[points[here].disc].centre;
 
+  // What stands before a corner that it cannot get nearer to is at the corner, until it has gone some way from there.
+  if (stalled_at_ && distance_to(*stalled_at_) > 0.5 * look_ahead_) stalled_at_.reset();
+  const bool stalled = stalled_at_.has_value();
+
   // Where to: as far on as the boundary is straight, no farther than the next sharp inner corner, past that once it is reached.
   const double start = points[here].along;
   double stop = INFINITY;
@@ -225,10 +230,10 @@ Command Pilot::follow(Hand hand) {
     if (points[i].corner && i + 1 < points.size()) {
       const GrownDisc &from = discs_[points[i].disc], &to = discs_[points[i + 1].disc];
       // A robot that cannot stop before it has as good as gone through.
-      if (ahead < 0.5 * look_ahead_ && stopping_distance() < ahead + 0.5 * look_ahead_) surroundings_.shut(from, to, pose_.position);
+      if (ahead < 0.5 * look_ahead_ && stopping_distance() < ahead + 0.5 * look_ahead_) surroundings_.shut(from, to);
       const glm::dvec2 before = points[i].position - from.centre, after = points[i].position - to.centre;
       const double corner = std::acos(std::clamp(glm::dot(before, after) / (glm::length(before) * glm::length(after)), -1.0, 1.0));
-      if (corner > sharp && glm::distance(points[i].position, pose_.position) > 0.25 * look_ahead_) {
+      if (corner > sharp && glm::distance(points[i].position, pose_.position) > (stalled ? 1.0 : 0.25) * look_ahead_) {
         stop = std::max(0.0, ahead);
         if (ahead <= look_ahead_ || target == i - 1) target = i;
         break;
@@ -255,6 +260,9 @@ Command Pilot::follow(Hand hand) {
   const double limit = speed_ * speed_ / vehicle_.deceleration + 1.0;
   Command command = drive(heading, std::min(stop + 0.5 * gap_, way_out(wrap_angle(heading), 2.0 * gap_, limit).distance));
   command.speed = std::min(command.speed, reach / turn_time_);
+  const bool stands = speed_now_ < 0.01 && command.speed < 0.01 && std::abs(heading) < radians(15.0);
+  if (!stands) stands_since_ = senses_->time;
+  if (senses_->time - stands_since_ > longest_stand) stalled_at_ = pose_.position;
   return command;
 }
 

@@ -89,6 +89,8 @@ class Pilot {
   double goal_tolerance_;
   bool boxed_in_ = false;
   glm::dvec2 contact_{0.0, 0.0};  ///< the matter that the hand is on
+  double stands_since_ = 0.0;     ///< s: following, but neither moving nor turning
+  std::optional<glm::dvec2> stalled_at_;
 
   Pose2 pose_;
   double speed_now_ = 0.0, nearest_ = 0.0;

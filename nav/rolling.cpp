@@ -11,7 +11,6 @@ namespace thicket {
 namespace {
 
 constexpr double touching = 1e-9;
-constexpr double behind = 1e6;  // m: as much farther a place counts that is behind a gate
 
 double squared(const glm::dvec2& v) { return v.x * v.x + v.y * v.y; }
 
@@ -34,14 +33,13 @@ std::optional<glm::dvec2> entry(const GrownDisc& i, const GrownDisc& j, int turn
   return glm::dvec2(scale * (along * d.x + across * d.y), scale * (along * d.y - across * d.x));
 }
 
-/// The straight way to a place leads through a gate: it is on the other side of a passage that is shut.
-bool behind_gate(const std::vector<GrownDisc>& discs, const glm::dvec2& robot, const glm::dvec2& place) {
+/// The straight way to a place leads through matter or through a gate: it is the other side of a thin wall, or of a passage that is shut.
+bool is_behind(const std::vector<GrownDisc>& discs, const glm::dvec2& robot, const glm::dvec2& place) {
   const glm::dvec2 way = place - robot;
-  return std::any_of(discs.begin(), discs.end(), [&](const GrownDisc& gate) {
-    if (!gate.gate) return false;
-    const glm::dvec2 to = gate.centre - robot;
-    const double along = std::clamp(glm::dot(to, way) / std::max(1e-12, squared(way)), 0.0, 1.0);
-    return squared(to - along * way) < gate.radius * gate.radius;
+  return std::any_of(discs.begin(), discs.end(), [&](const GrownDisc& disc) {
+    const glm::dvec2 to = disc.centre - robot;
+    const double radius = disc.gate ? disc.radius : 0.5 * disc.radius, along = std::clamp(glm::dot(to, way) / std::max(1e-12, squared(way)), 0.0, 1.0);
+    return along > 0.0 && squared(to - along * way) < radius * radius && squared(to) >= radius * radius;
   });
 }
 
@@ -89,7 +87,7 @@ std::optional<glm::dvec2> nearest_free(const std::vector<GrownDisc>& discs, std:
   if (forward == 0.0 && backward == 0.0) return back;
   // Rather back than on: what lies on may be the other side of a passage that will be found shut; of one that is shut already, in no case.
   const glm::dvec2 on = turned(turn * forward);
-  const bool back_is_behind = behind_gate(discs, robot, discs[i].centre + discs[i].radius * back), on_is_behind = behind_gate(discs, robot, discs[i].centre + discs[i].radius * on);
+  const bool back_is_behind = is_behind(discs, robot, discs[i].centre + discs[i].radius * back), on_is_behind = is_behind(discs, robot, discs[i].centre + discs[i].radius * on);
   if (back_is_behind != on_is_behind) return back_is_behind ? on : back;
   return backward <= forward + 0.1 ? back : on;
 }
@@ -111,8 +109,8 @@ bool roll(const std::vector<GrownDisc>& discs, const glm::dvec2& contact, const 
     const auto start = nearest_free(discs, i, robot, turn);
     if (!start) continue;
     const glm::dvec2 place = discs[i].centre + discs[i].radius * *start;
-    const double far = glm::distance(place, robot) + (behind_gate(discs, robot, place) ? behind : 0.0);
-    if (far >= least) continue;
+    const double far = glm::distance(place, robot);
+    if (far >= least || is_behind(discs, robot, place)) continue;
     least = far;
     pivot = i;
     at = *start;

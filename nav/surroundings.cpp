@@ -130,24 +130,16 @@ void Surroundings::note_squeeze(const glm::dvec2& robot) {
     squeezed = std::any_of(sides_.begin(), sides_.begin() + static_cast<std::ptrdiff_t>(i), [&](const glm::dvec2& b) { return glm::dot(sides_[i], b) < -0.5; });
   if (!squeezed) return;
   const auto near = [&](double distance) { return [&robot, distance](const glm::dvec2& p) { return squared(p - robot) < distance * distance; }; };
-  if (std::any_of(shut_.begin(), shut_.end(), near(one_passage * keep_)) || std::any_of(been_.begin(), been_.end(), near(0.06 * keep_))) return;
+  if (std::any_of(shut_.begin(), shut_.end(), near(0.4 * keep_)) || std::any_of(been_.begin(), been_.end(), near(0.06 * keep_))) return;
   been_.push_back(robot);
 }
 
-void Surroundings::shut(const GrownDisc& a, const GrownDisc& b, const glm::dvec2& robot) {
-  const glm::dvec2 across = b.centre - a.centre;
-  const double width = glm::length(across);
-  if (width < borderline * keep_ || a.gate || b.gate) return;
+void Surroundings::shut(const GrownDisc& a, const GrownDisc& b) {
+  if (glm::distance(a.centre, b.centre) < borderline * keep_ || a.gate || b.gate) return;
   const glm::dvec2 middle = 0.5 * (a.centre + b.centre);
   const auto within = [&](double distance) { return [&middle, distance](const glm::dvec2& p) { return squared(p - middle) < distance * distance; }; };
-  // One gate a passage, for the robot could come to stand between two.
-  if (std::any_of(shut_.begin(), shut_.end(), within(one_passage * keep_))) return;
-  // Been in its mouth is not been through it.
-  const auto depth = [&](const glm::dvec2& p) { return (across.x * (p.y - a.centre.y) - across.y * (p.x - a.centre.x)) / width; };
-  const double side = std::copysign(1.0, depth(robot));
-  const auto near = within(0.3 * keep_);
-  if (std::any_of(been_.begin(), been_.end(), [&](const glm::dvec2& p) { return near(p) && side * depth(p) < 0.03 * keep_; })) return;
-  std::erase_if(been_, within(one_passage * keep_));
+  // One gate a passage, for the robot could come to stand between two. Where it has been there is no gate.
+  if (std::any_of(shut_.begin(), shut_.end(), within(one_passage * keep_)) || std::any_of(been_.begin(), been_.end(), within(0.3 * keep_))) return;
   shut_.push_back(middle);
 }
 

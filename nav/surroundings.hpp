@@ -36,9 +36,8 @@ class Surroundings {
   /// Within reach and a little more. Radius `keep`, less where the robot has been closer in a passage; small ones for gates.
   const std::vector<GrownDisc>& discs() const { return discs_; }
 
-  /// The passage between two discs was taken for a wall by a robot before it; it will be from now on. No effect on passages far too narrow, for which that goes without saying, nor on those that it has
-  /// been through.
-  void shut(const GrownDisc& a, const GrownDisc& b, const glm::dvec2& robot);
+  /// The passage between two discs was taken for a wall; it will be from now on. No effect on passages far too narrow, for which that goes without saying, nor where the robot has been.
+  void shut(const GrownDisc& a, const GrownDisc& b);
 
  private:
   /// A place of matter, averaged over the times it was seen.

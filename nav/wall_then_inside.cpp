@@ -47,7 +47,7 @@ class WallThenInside final : public Explorer {
     mark("wall", position());
     pilot().touch_wall_toward(*target_);
     to_wall_ = *target_ - position();
-    walk_ = BoundaryWalk(pilot().pose(), *target_, pilot().same_place(), pilot().keep());
+    walk_ = BoundaryWalk(pilot().pose(), *target_, pilot().same_place(), pilot().keep(), 0.0, pilot().pose().position);
     yaw_ = pilot().pose().yaw;
     turned_ = 0.0;
   }

@@ -138,7 +138,7 @@ TEST_CASE("Alg1 and Alg2 turn round where they meet an earlier hit point again, 
 TEST_CASE("a boundary that comes close beside the M-line, and does not cross it, is left there by all that leave on the line") {
   const glm::dvec2 hit(0.0, 0.0), goal(10.0, 0.0);
   for (const double sign : {1.0, -1.0}) {
-    BoundaryWalk walk({hit, 0.0}, goal, 0.1, 1.0);
+    BoundaryWalk walk({hit, 0.0}, goal, 0.1, 1.0, 0.0, hit);
     const auto step = [&](double x, double y) {
       walk.advance({{x, sign * y}, 0.0});
       return on_m_line(walk, hit, goal, 0.05);

@@ -110,8 +110,20 @@ TEST_CASE("a planner that lacks what it needs says what") {
   CHECK(make_planner(spec, {}, {}).error().message.find("did you mean 'bug2'") != std::string::npos);
 }
 
+TEST_CASE("a turn on the spot is the loop of a cell for a robot that was never outside of it, and no loop for one that came from far away") {
+  for (const bool from_afar : {false, true}) {
+    CAPTURE(from_afar);
+    BoundaryWalk walk({{0.3, 0.0}, 0.5 * pi}, {9.0, 0.0}, 0.05, 1.0, 0.0, from_afar ? glm::dvec2(-3.0, 0.0) : glm::dvec2(0.0, 0.0));
+    for (int i = 1; i <= 80; ++i) {
+      const double angle = 2.0 * pi * i / 60.0;
+      walk.advance({{0.3 * std::cos(angle), 0.3 * std::sin(angle)}, wrap_angle(angle + 0.5 * pi)});
+    }
+    CHECK(walk.closed() != from_afar);
+  }
+}
+
 TEST_CASE("a boundary walk closes only after a turn of 2 pi, and not at the far side of a corridor") {
-  BoundaryWalk circle({{1.0, 0.0}, 0.5 * pi}, {5.0, 0.0}, 0.1, 1.0);
+  BoundaryWalk circle({{1.0, 0.0}, 0.5 * pi}, {5.0, 0.0}, 0.1, 1.0, 0.0, {1.0, 0.0});
   double closed_at = 0.0;
   for (int i = 1; i <= 1000 && !circle.closed(); ++i) {
     const double a = 0.01 * i;
@@ -123,7 +135,7 @@ TEST_CASE("a boundary walk closes only after a turn of 2 pi, and not at the far 
   CHECK(closed_at < 2.0 * pi + 1.0);
   CHECK(circle.loop_length() == doctest::Approx(2.0 * pi).epsilon(0.05));
 
-  BoundaryWalk corridor({{0.0, 0.0}, 0.0}, {5.0, 5.0}, 0.1, 1.0);
+  BoundaryWalk corridor({{0.0, 0.0}, 0.0}, {5.0, 5.0}, 0.1, 1.0, 0.0, {0.0, 0.0});
   for (int i = 1; i <= 100; ++i) corridor.advance({{0.05 * i, 0.0}, 0.0});
   for (int i = 1; i <= 100; ++i) corridor.advance({{5.0 - 0.05 * i, 0.05}, pi});  // back along the other side, 5 cm away
   CHECK_FALSE(corridor.closed());
