@@ -58,6 +58,8 @@ if [[ ${1:-all} == all || $1 == radar ]]; then
 fi
 if [[ ${1:-all} == all || $1 == maps ]]; then
   for mission in foliage_wall/{bug1,bug2,closed,smoke,map_radar,map_lidar} rooms/{convex,u,spiral}; do map "$mission"; done
+  "$program" run foliage_wall/map_radar --out "$runs/run" --quiet --set 'output.map_formats="picture"'
+  cp -- "$runs/run/map_probability.png" "$root/docs/pictures/map_probability.png"
   map thicket/look_through thicket_radar
   map thicket/look_through_lidar thicket_lidar
 fi

@@ -52,6 +52,7 @@ const Section& output_section() {
       SectionOf<S>("[output]", "which files a run leaves, beside result.json, timing.json and mission.toml")
           .key("trajectory", &S::trajectory, "trajectory.csv and trajectory.tum")
           .key("map", &S::map, "map.pgm and map.yaml")
+          .key("map_formats", &S::map_formats, "further files of the map, separated by commas: scale, raw (for map_server, with probabilities), npy (NumPy), ot, bt (OctoMap), picture (of the probabilities)")
           .key("picture", &S::picture, "map.png: what the robot mapped")
           .key("path_picture", &S::path_picture, "path.png: its way in the world as it is")
           .key("observed_region_m", &S::observed_region_m, "m", between(-1e9, 1e9),
@@ -197,6 +198,9 @@ void check_together(const Node& root, const Mission& mission, Faults& faults) {
   for (const std::string& name : names_in(mission.bumpers.sensors))
     if (std::ranges::find(known, name) == known.end())
       faults.add(place("bumpers"), fmt::format("'sensors' names '{}', expected names of sensors separated by commas, of '{}'{}", name, fmt::join(known, "', '"), did_you_mean(name, known)));
+  for (const std::string& name : names_in(mission.output.map_formats))
+    if (std::ranges::find(map_format_names(), name) == map_format_names().end())
+      faults.add(place("output"), fmt::format("'map_formats' names '{}', expected names separated by commas, of '{}'{}", name, fmt::join(map_format_names(), "', '"), did_you_mean(name, map_format_names())));
   if (const auto& r = mission.output.observed_region_m; r && (r->z - r->x) * (r->w - r->y) > 1e7 * mission.map.resolution_m * mission.map.resolution_m)
     faults.add(place("output"), "'observed_region_m' has more than 10 million cells, expected a smaller one");
   if (const auto& r = mission.output.observed_region_m; r && !(r->x < r->z && r->y < r->w))
@@ -272,6 +276,19 @@ std::string describe_mission_file() {
   }
   return text + fmt::format("\nA [[sensor]] names a type, or a preset whose keys it may change: {}. Without any [[sensor]], usarsim2012.\nVehicle presets: {}.\n",
                             fmt::join(sensor_presets(), ", "), fmt::join(vehicle_presets(), ", "));
+}
+
+const std::vector<std::string>& map_format_names() {
+  static const std::vector<std::string> names = {"scale", "raw", "npy", "ot", "bt", "picture"};
+  return names;
+}
+
+std::vector<std::string> map_formats(const OutputSpec& output) {
+  const auto named = names_in(output.map_formats);
+  std::vector<std::string> formats;
+  for (const std::string& name : map_format_names())
+    if (std::ranges::find(named, name) != named.end()) formats.push_back(name);
+  return formats;
 }
 
 std::vector<std::size_t> bumper_sensors(const Mission& mission) {

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "thicket/base/files.hpp"
+#include "thicket/base/probability_file.hpp"
+#include "thicket/sim/probability_picture.hpp"
 #include "thicket/worlds/truth.hpp"
 
 namespace thicket {
@@ -31,6 +34,30 @@ Json map_summary(const Simulation& simulation) {
   return json;
 }
 
+/// A further format of the map, and the files that it makes.
+struct MapFormat {
+  const char* name;
+  std::vector<std::string> files;
+  Result<Done> (*write)(const std::filesystem::path& folder, const ProbabilityGrid& grid, const Simulation& simulation);
+};
+
+/// The first sensor's, above the world's zero, at the start, m.
+double sensor_height(const Mission& mission) { return mission.start.z_m + mounted(mission.sensors.front()).position_m.z; }
+
+const std::vector<MapFormat>& further_formats() {
+  using Path = std::filesystem::path;
+  static const std::vector<MapFormat> list = {
+      {"scale", {"map_scale.png", "map_scale.yaml"}, [](const Path& folder, const ProbabilityGrid& grid, const Simulation&) { return write_map_server(folder / "map_scale", grid, MapMode::scale); }},
+      {"raw", {"map_raw.pgm", "map_raw.yaml"}, [](const Path& folder, const ProbabilityGrid& grid, const Simulation&) { return write_map_server(folder / "map_raw", grid, MapMode::raw); }},
+      {"npy", {"map.npy"}, [](const Path& folder, const ProbabilityGrid& grid, const Simulation&) { return write_npy(folder / "map.npy", grid); }},
+      {"ot", {"map.ot"}, [](const Path& folder, const ProbabilityGrid& grid, const Simulation& simulation) { return write_octomap(folder / "map.ot", grid, sensor_height(simulation.mission())); }},
+      {"bt", {"map.bt"}, [](const Path& folder, const ProbabilityGrid& grid, const Simulation& simulation) { return write_octomap(folder / "map.bt", grid, sensor_height(simulation.mission())); }},
+      {"picture", {"map_probability.png"}, [](const Path& folder, const ProbabilityGrid& grid, const Simulation& simulation) {
+         return write_probability_picture(folder / "map_probability.png", grid, fmt::format("{}: map after {:.1f} s", simulation.mission().name, simulation.time()));
+       }}};
+  return list;
+}
+
 }  // namespace
 
 const char* version() { return THICKET_VERSION; }
@@ -38,7 +65,7 @@ const char* version() { return THICKET_VERSION; }
 std::optional<double> observed_share(const Simulation& simulation, const glm::dvec4& region) {
   const World& world = simulation.stage().scene.world();
   const OccupancyMap& map = simulation.map();
-  const double height = simulation.mission().start.z_m + mounted(simulation.mission().sensors.front()).position_m.z;
+  const double height = sensor_height(simulation.mission());
   const CellIndex first = map.cell_at({region.x, region.y}), last = map.cell_at({region.z, region.w});
   // The truth at the cells' own centres, at the sensor's height.
   const glm::dvec2 low = glm::dvec2(static_cast<double>(first.column), static_cast<double>(first.row)) * map.resolution();
@@ -116,6 +143,10 @@ Result<Done> write_outputs(const std::filesystem::path& folder, const Simulation
   if (!output.map || !with_map) stale.insert(stale.end(), {"map.pgm", "map.yaml"});
   if (!output.picture) stale.emplace_back("map.png");
   if (!output.path_picture) stale.emplace_back("path.png");
+  const auto named = map_formats(output);
+  const auto wanted = [&](const MapFormat& format) { return with_map && std::ranges::find(named, format.name) != named.end(); };
+  for (const MapFormat& format : further_formats())
+    if (!wanted(format)) stale.insert(stale.end(), format.files.begin(), format.files.end());
   for (const std::string& name : stale) std::filesystem::remove(folder / name, ignored);
   std::vector<Result<Done>> written;
   written.push_back(write_file(folder / "mission.toml", write_mission(simulation.mission())));
@@ -124,6 +155,11 @@ Result<Done> write_outputs(const std::filesystem::path& folder, const Simulation
     written.push_back(write_file(folder / "trajectory.tum", trajectory.tum()));
   }
   if (output.map && with_map) written.push_back(write_map_file(folder / "map", simulation.map().to_grid()));
+  if (with_map && !named.empty()) {
+    const ProbabilityGrid grid = simulation.map().to_probabilities();
+    for (const MapFormat& format : further_formats())
+      if (wanted(format)) written.push_back(format.write(folder, grid, simulation));
+  }
   if (output.picture) written.push_back(write_map_picture(folder / "map.png", simulation, trajectory));
   if (output.path_picture) written.push_back(write_path_picture(folder / "path.png", simulation, trajectory));
   written.push_back(write_file(folder / "timing.json", timing_json(simulation, wall_start_s, wall_run_s)));

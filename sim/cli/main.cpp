@@ -91,9 +91,12 @@ void add_truth(CLI::App& app, TruthArguments& a) {
 }
 
 void add_convert(CLI::App& app, ConvertArguments& a) {
-  app.add_option("in", a.in, "map_server YAML, MovingAI .map, or a world file, which is mapped as by `thicket truth`; an OBJ file becomes a world (.toml) of its mesh")->required()->type_name("IN");
-  app.add_option("out", a.out, "what to write: .yaml (and .pgm), .map, or .toml (a world of one solid, with the .yaml and .pgm beside it)")->required()->type_name("OUT");
-  app.add_option("--cell-size", a.cell_size, "of a MovingAI map, metres a cell; 1 if it is not given")->type_name("M");
+  app.add_option("in", a.in, "map_server YAML, .npy (NumPy), .ot or .bt (OctoMap), MovingAI .map, or a world file, which is mapped as by `thicket truth`; an OBJ file becomes a world (.toml) of its mesh")->required()->type_name("IN");
+  app.add_option("out", a.out, "what to write: .yaml (and its .pgm, of --mode scale .png), .npy, .ot, .bt, .map, .toml (a world of one solid, with the .yaml and .pgm beside it), or .png: a picture with a legend, which is not read again")->required()->type_name("OUT");
+  app.add_option("--mode", a.mode, "of a .yaml: trinary (occupied, free, unknown; the default), scale (probability as grey, unknown transparent), raw (percent)")->type_name("MODE");
+  app.add_option("--cell-size", a.cell_size, "of a MovingAI map, metres a cell; 1 if it is not given. Of a .npy, which needs it")->type_name("M");
+  app.add_option("--origin", a.origin, "of a .npy: its lower-left corner, metres; 0,0 if it is not given")->type_name("X,Y");
+  app.add_option("--z", a.z, "of an .ot or .bt: the height of the layer to read or to write, metres; needed if there are several")->type_name("M");
   app.add_option("--resolution", a.resolution, "of a mapped world, metres a cell")->capture_default_str();
   app.add_option("--z-low", a.z_low, "a world is mapped from this height, metres")->capture_default_str();
   app.add_option("--z-high", a.z_high, "to this height, metres")->capture_default_str();
@@ -196,7 +199,7 @@ int dispatch(int argc, char** argv) {
   CLI::App& truth = *app.add_subcommand("truth", "what is really there: a world as a map at any resolution and height, and whether there is a way (exit code 3: there is none)");
   add_truth(truth, truth_arguments);
   ConvertArguments convert_arguments;
-  CLI::App& convert = *app.add_subcommand("convert", "turn maps of one format into another: map_server, MovingAI, world");
+  CLI::App& convert = *app.add_subcommand("convert", "turn maps of one format into another: map_server, NumPy, OctoMap, MovingAI, world, picture");
   add_convert(convert, convert_arguments);
   PictureArguments picture_arguments;
   CLI::App& picture = *app.add_subcommand("picture", "draw what a world looks like, with the rays of the simulator");

@@ -1,4 +1,4 @@
-// Commands about maps: the truth of a world as a map, and maps from one format to another.
+// `thicket truth`: what is there as a map, and whether there is a way.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,23 +6,40 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "map_parts.hpp"
 #include "program.hpp"
 #include "thicket/base/files.hpp"
 #include "thicket/base/image.hpp"
-#include "thicket/base/movingai.hpp"
-#include "thicket/worlds/mesh_file.hpp"
-#include "thicket/worlds/truth.hpp"
 
 namespace thicket::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Area {
-  glm::dvec2 low, high;
-};
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code none;
+  return fs::equivalent(a, b, none) && !none;
+}
 
-/// What the world states, else all that it has and a metre around.
+/// Black is blocked, white free, grey the path.
+GreyImage to_picture(const TruthGrid& grid, const std::optional<GridPath>& path) {
+  GreyImage image{grid.width, grid.height, std::vector<std::uint8_t>(grid.blocked.size()), {}};
+  const auto width = static_cast<std::size_t>(grid.width), height = static_cast<std::size_t>(grid.height);
+  const auto pixel = [&](std::size_t cell) -> std::uint8_t& { return image.pixels[(height - 1 - cell / width) * width + cell % width]; };
+  for (std::size_t cell = 0; cell < grid.blocked.size(); ++cell) pixel(cell) = grid.blocked[cell] ? 0 : 255;
+  if (path)
+    for (const glm::dvec2& point : path->points) pixel(grid.index_at(point)) = 128;
+  return image;
+}
+
+void print_way(const TruthGrid& grid, const std::optional<GridPath>& path, const glm::dvec2& from, const glm::dvec2& to) {
+  if (path) return fmt::print("connected  yes, the shortest path is {:.3f} m\n", path->length_m);
+  const bool at_start = grid.blocked[grid.index_at(from)] != 0, at_goal = grid.blocked[grid.index_at(to)] != 0;
+  fmt::print("connected  no{}\n", at_start ? ": --from lies in a blocked cell" : at_goal ? ": --to lies in a blocked cell" : "");
+}
+
+}  // namespace
+
 Result<Area> area_of(const World& world) {
   if (const auto& b = world.bounds) return Area{{b->x, b->y}, {b->z, b->w}};
   const auto box = extent(world);
@@ -37,26 +54,6 @@ GridMap to_map(const TruthGrid& grid) {
   return map;
 }
 
-/// Black is blocked, white free, grey the path.
-GreyImage to_picture(const TruthGrid& grid, const std::optional<GridPath>& path) {
-  GreyImage image{grid.width, grid.height, std::vector<std::uint8_t>(grid.blocked.size()), {}};
-  const auto width = static_cast<std::size_t>(grid.width), height = static_cast<std::size_t>(grid.height);
-  const auto pixel = [&](std::size_t cell) -> std::uint8_t& { return image.pixels[(height - 1 - cell / width) * width + cell % width]; };
-  for (std::size_t cell = 0; cell < grid.blocked.size(); ++cell) pixel(cell) = grid.blocked[cell] ? 0 : 255;
-  if (path)
-    for (const glm::dvec2& point : path->points) pixel(grid.index_at(point)) = 128;
-  return image;
-}
-
-/// A file name without its ending, which write_map_file adds.
-fs::path stem_of(const fs::path& file) { return fs::path(file).replace_extension(); }
-
-bool same_file(const fs::path& a, const fs::path& b) {
-  std::error_code none;
-  return fs::equivalent(a, b, none) && !none;
-}
-
-/// What a command would write must not be what it reads: the input, or a file that its text names.
 std::optional<Error> overwrites(const std::vector<fs::path>& outputs, const fs::path& in, const fs::path& map_image) {
   const std::string ending = in.extension().string();
   const bool names_files = ending == ".toml" || ending == ".yaml" || ending == ".yml";
@@ -70,71 +67,12 @@ std::optional<Error> overwrites(const std::vector<fs::path>& outputs, const fs::
   return std::nullopt;
 }
 
-/// The cells of a file: a map's own, or those that the matter of a world meets.
-Result<GridMap> read_cells(const fs::path& in, const ConvertArguments& a) {
-  const std::string ending = in.extension().string();
-  if (ending == ".map") {
-    if (!a.map_image.empty()) return Error{fmt::format("{}: a map image is given, but the map is not a map_server YAML file", in.string())};
-    return read_movingai_map(in, a.cell_size.value_or(1.0));
-  }
-  if (ending == ".yaml" || ending == ".yml") return read_map_file(in, a.map_image);
-  MapOptions options;
-  options.image = a.map_image;
-  options.cell_size = a.cell_size;
-  const auto world = read_world(in, options);
-  if (!world) return world.error();
-  const auto area = area_of(*world);
-  if (!area) return area.error();
-  const auto grid = occupancy(world_at(*world, 0.0), area->low, area->high, a.resolution, a.z_low, a.z_high, Convention::any_overlap);
-  if (!grid) return grid.error();
-  return to_map(*grid);
-}
-
-std::string world_of_map(const fs::path& yaml, const fs::path& in, const GridMap& map, double height) {
-  // Turned maps leave their bounds to be found.
-  const glm::dvec2 high = map.origin + glm::dvec2(map.width, map.height) * map.resolution;
-  const std::string bounds = map.origin_yaw == 0.0 ? fmt::format("bounds_m = [{:#}, {:#}, {:#}, {:#}]\n", map.origin.x, map.origin.y, high.x, high.y) : "";
-  return fmt::format("# Written by `thicket convert`.\nname = {}\nsource = {}\n{}\n[material.wall]\nreflectivity = 0.5\n\n[[solid]]\ntype = \"map\"\nname = \"map\"\nmaterial = \"wall\"\nfile = {}\nheight_m = {:#}\n",
-                     toml_string(yaml.stem().string()), toml_string(in.filename().string()), bounds, toml_string(yaml.filename().string()), height);
-}
-
-/// A world of an OBJ file, which stays where it is, with every MTL material to be given one of Thicket's.
-Result<std::string> world_of_obj(const fs::path& obj, const fs::path& out) {
-  const auto file = read_obj(obj);
-  if (!file) return file.error();
-  auto presets = material_presets();
-  if (!presets) return presets.error();
-  std::error_code failed;
-  fs::path relative = fs::relative(obj, fs::absolute(out).parent_path(), failed);
-  if (failed || relative.empty()) relative = fs::absolute(obj);
-  std::string text = fmt::format("# Written by `thicket convert`.\nname = {}\nsource = {}\n\n[material.wall]\nreflectivity = 0.5\n\n[[solid]]\ntype = \"mesh\"\nname = {}\nmaterial = \"wall\"         # where nothing else is said\n"
-                                 "file = {}\nup = \"z\"                  # \"y\" if the model lies on its side\nscale = 1.0               # metres in a unit of the file\nsheet_thickness_m = 0.001\n",
-                                 toml_string(obj.stem().string()), toml_string("OBJ file " + obj.filename().string()), toml_string(obj.stem().string()), toml_string(relative.generic_string()));
-  const bool named = std::any_of(file->materials.begin(), file->materials.end(), [](const ObjMaterial& m) { return !m.name.empty(); });
-  if (named) text += "\n[solid.materials]         # MTL name = material; `thicket materials` lists them\n";
-  for (const ObjMaterial& mtl : file->materials) {
-    if (mtl.name.empty()) continue;
-    const bool shipped = std::any_of(presets->begin(), presets->end(), [&](const Material& m) { return m.name == mtl.name; });
-    const std::string hint = mtl.dissolve < 1.0 ? fmt::format("  # its dissolve is {}: light may pass (\"glass\"?)", mtl.dissolve) : "";
-    text += fmt::format("{} = {}{}\n", toml_string(mtl.name), toml_string(shipped ? mtl.name : "wall"), hint);
-  }
-  return text;
-}
-
-void print_way(const TruthGrid& grid, const std::optional<GridPath>& path, const glm::dvec2& from, const glm::dvec2& to) {
-  if (path) return fmt::print("connected  yes, the shortest path is {:.3f} m\n", path->length_m);
-  const bool at_start = grid.blocked[grid.index_at(from)] != 0, at_goal = grid.blocked[grid.index_at(to)] != 0;
-  fmt::print("connected  no{}\n", at_start ? ": --from lies in a blocked cell" : at_goal ? ": --to lies in a blocked cell" : "");
-}
-
-}  // namespace
-
 int write_truth(const TruthArguments& a) {
   const fs::path out = a.out;
   const std::string ending = out.extension().string();
   const bool picture = ending == ".png";
   // A dot may be part of a name: only what is surely another format is refused.
-  for (const char* other : {".map", ".toml", ".pgm", ".jpg"})
+  for (const char* other : {".map", ".toml", ".pgm", ".jpg", ".npy", ".ot", ".bt"})
     if (ending == other) return complain({fmt::format("--out is '{}', expected a name ending in .yaml (or without an ending) for a map, in .png for a picture", a.out)});
   if (a.convention != "centre" && a.convention != "overlap") return complain({fmt::format("--convention is '{}', expected centre or overlap", a.convention)});
   if (a.grow > 0.0 && a.all_matter) return complain({"--all-matter does not go with --grow: obstacles are what stops motion"});
@@ -182,44 +120,6 @@ int write_truth(const TruthArguments& a) {
   if (a.from.empty()) return done;
   print_way(*grid, path, start, goal);
   return path ? done : unreachable;
-}
-
-int convert_map(const ConvertArguments& a) {
-  const fs::path out = a.out, stem = stem_of(out);
-  const std::string ending = out.extension().string();
-  const fs::path yaml = fs::path(stem) += ".yaml", pgm = fs::path(stem) += ".pgm";
-  if (ending != ".yaml" && ending != ".map" && ending != ".toml")
-    return complain({fmt::format("'{}': cannot tell the format to write, expected a name ending in .yaml (map_server), .map (MovingAI) or .toml (world)", a.out)});
-  if (!(a.height > 0.0) || !std::isfinite(a.height)) return complain({fmt::format("--height is {}, expected metres, a finite number greater than 0", a.height)});
-  const auto in = find_input(a.in);
-  if (in.empty()) return complain({missing_input(a.in)});
-  if (in.extension() == ".obj" && ending == ".toml") {
-    if (const auto fault = overwrites({out}, in, a.map_image)) return complain(*fault);
-    const auto text = world_of_obj(in, out);
-    if (!text) return complain(text.error());
-    if (const auto written = write_file(out, *text); !written) return complain(written.error());
-    fmt::print("written    {}\n", out.string());
-    return done;
-  }
-  const std::vector<fs::path> outputs = ending == ".map" ? std::vector{out} : ending == ".yaml" ? std::vector{yaml, pgm} : std::vector{out, yaml, pgm};
-  if (const auto fault = overwrites(outputs, in, a.map_image)) return complain(*fault);
-  const auto map = read_cells(in, a);
-  if (!map) return complain(map.error());
-
-  std::string note;
-  if (ending == ".map") {
-    if (const auto written = write_movingai_map(out, *map); !written) return complain(written.error());
-    const auto unknown = std::count(map->cells.begin(), map->cells.end(), CellState::unknown);
-    if (unknown > 0) note += fmt::format("note       {} unknown cells became '@', not passable\n", unknown);
-    note += fmt::format("note       a .map keeps neither resolution nor origin: {} m a cell, origin {}, {} m, {} rad\n", map->resolution, map->origin.x, map->origin.y, map->origin_yaw);
-  } else {
-    if (const auto written = write_map_file(stem, *map); !written) return complain(written.error());
-    if (ending == ".toml")
-      if (const auto written = write_file(out, world_of_map(yaml, in, *map, a.height)); !written) return complain(written.error());
-  }
-  fmt::print("cells      {} x {} of {} m\n{}", map->width, map->height, map->resolution, note);
-  for (const fs::path& one : outputs) fmt::print("written    {}\n", one.string());
-  return done;
 }
 
 }  // namespace thicket::cli

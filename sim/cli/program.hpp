@@ -37,7 +37,10 @@ struct TruthArguments {
 
 struct ConvertArguments {
   std::string in, out, map_image;
-  std::optional<double> cell_size;  ///< m, of a MovingAI map
+  std::string mode;                 ///< of a map_server map: trinary (or empty), scale, raw
+  std::string origin;               ///< X,Y of a .npy; empty: not given
+  std::optional<double> cell_size;  ///< m, of a MovingAI map or a .npy
+  std::optional<double> z;          ///< m, which layer of a tree of OctoMap
   double resolution = 0.05, z_low = 0.0, z_high = 0.5, height = 2.5;  ///< m
 };
 

@@ -37,6 +37,7 @@ struct OutputSpec {
   bool map = true;
   bool picture = true;
   bool path_picture = true;
+  std::string map_formats;  ///< besides map.pgm and map.yaml: names of `map_format_names`, separated by commas
   std::optional<glm::dvec4> observed_region_m;
 };
 
@@ -86,6 +87,12 @@ std::string describe_mission_file();
 /// Which sensors drive the bumpers, as places in `sensors`, in order: those that `bumpers.sensors` names; without names the first, and if that is a lobe radar all lobe radars. Never empty. Names
 /// that no sensor has are passed over; `read_mission` complains of them.
 std::vector<std::size_t> bumper_sensors(const Mission& mission);
+
+/// The formats that `output.map_formats` may name: scale, raw, npy, ot, bt, picture.
+const std::vector<std::string>& map_format_names();
+
+/// Those that it does name, in the order of `map_format_names`, each once.
+std::vector<std::string> map_formats(const OutputSpec& output);
 
 /// Reads the world that a mission names.
 Result<World> read_mission_world(const Mission& mission);
