@@ -27,6 +27,7 @@ inline void head(const MountedSpec& spec, const Pose& mount, std::uint16_t senso
   scan.range_max = spec.range_max_m;
   scan.azimuth_opening = scan.elevation_opening = 0.0;
   scan.rays = 0;
+  scan.range_noise = spec.range_noise_m;
   scan.echoes.clear();
   scan.profiles.bins = 0;
 }

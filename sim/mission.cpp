@@ -158,6 +158,12 @@ void find_files(const Node& root, const std::filesystem::path& file, Mission& mi
   };
   if (!mission.world.empty()) mission.world_file = find("world", mission.world);
   if (!mission.world_image.empty()) mission.image_file = find("world_image", mission.world_image);
+  if (mission.map.initial.empty()) return;
+  const Node* map = root.find("map");
+  const Node* key = map ? map->find("initial") : nullptr;
+  mission.initial_map_file = locate(key, mission.map.initial, file);
+  if (mission.initial_map_file.empty())
+    faults.add(key ? key->place : root.place, fmt::format("there is no file '{}', expected a map (.yaml, .npy, .ot, .bt) by a path relative to {}", mission.map.initial, key && key->place.line > 0 ? "the mission" : "the working directory"));
 }
 
 /// The names in a list separated by commas, without the blanks around them.
@@ -178,6 +184,11 @@ std::vector<std::string> sensor_names(const Mission& mission) {
 }
 
 void check_together(const Node& root, const Mission& mission, Faults& faults) {
+  if (mission.map.cell_bits != 8 && mission.map.cell_bits != 16) {
+    const Node* map = root.find("map");
+    const Node* key = map ? map->find("cell_bits") : nullptr;
+    faults.add(key ? key->place : root.place, fmt::format("map.cell_bits is {}, expected 8 or 16", mission.map.cell_bits));
+  }
   const auto place = [&](const char* table) { return root.find(table) ? root.find(table)->place : root.place; };
   const PlannerNeeds needs = planner_needs(mission.planner.name);
   if ((needs == PlannerNeeds::waypoints && mission.planner.waypoints_m.empty()) || (needs == PlannerNeeds::goal && !mission.planner.goal_m)) {
@@ -259,6 +270,7 @@ std::string write_mission(const Mission& mission) {
   Mission copy = mission;
   copy.world = portable_name(mission.world_file);
   if (!mission.image_file.empty()) copy.world_image = portable_name(mission.image_file);
+  if (!mission.initial_map_file.empty()) copy.map.initial = portable_name(mission.initial_map_file);
   std::string text = "# Fully resolved: running this file again gives the same result.\n" + write_section(header_section(), &copy);
   for (const Part& part : parts()) text += fmt::format("\n[{}]\n{}", part.key, write_section(part.section(), part.object(copy)));
   for (const SensorSpec& sensor : mission.sensors)

@@ -69,7 +69,15 @@ Result<Simulation> Simulation::create(const Mission& given, Scene scene) {
   for (const SensorSpec& spec : mission.sensors) sensors.push_back(make_sensor(spec, static_cast<std::uint16_t>(sensors.size())));
   auto planner = make_planner(mission.planner, vehicle_limits(mission), start_pose(mission));
   if (!planner) return planner.error();
-  return Simulation(std::make_shared<const Stage>(Stage{mission, std::move(scene), std::move(sensors), bumper_sensors(mission)}), std::move(*planner));
+  Simulation simulation(std::make_shared<const Stage>(Stage{mission, std::move(scene), std::move(sensors), bumper_sensors(mission)}), std::move(*planner));
+  if (!mission.initial_map_file.empty()) {
+    ProbabilityReading reading;
+    if (mission.initial_map_file.extension() == ".npy") reading.cell_size = mission.map.resolution_m;  // it has none of its own
+    const auto known = read_probabilities(mission.initial_map_file, reading);
+    if (!known) return known.error();
+    if (auto begun = simulation.map_.start_from(*known); !begun) return Error{fmt::format("{}: {}", mission.initial_map_file.string(), begun.error().message)};
+  }
+  return simulation;
 }
 
 Simulation::Simulation(std::shared_ptr<const Stage> stage, std::unique_ptr<Planner> planner)

@@ -1,11 +1,13 @@
 // The occupancy map that grows while the robot drives.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
-#include <unordered_map>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -13,6 +15,7 @@
 #include "thicket/base/map_file.hpp"
 #include "thicket/base/pose.hpp"
 #include "thicket/base/probability_grid.hpp"
+#include "thicket/base/result.hpp"
 #include "thicket/base/schema.hpp"
 #include "thicket/scan/scan.hpp"
 
@@ -21,11 +24,18 @@ namespace thicket {
 /// The keys of [map].
 struct MapSpec {
   bool enabled = true;
+  std::string store = "tiles";     ///< "tiles": exists only where something was seen | "dense": one rectangle | "quadtree": squares of like cells are one
+  int cell_bits = 8;               ///< 8 or 16
   double resolution_m = 0.1;
   double probability_hit = 0.7;    ///< of matter in a cell, given an echo in it
   double probability_miss = 0.4;   ///< of matter in a cell, given a beam that went through it
+  double probability_detection = 0.5;  ///< that a lobe gives an echo of a cell's matter: what it frees it frees by 1 - this
+  std::optional<double> range_sigma_m; ///< standard deviation of ranges; not given: what the sensor states
   double clamp_low = 0.1192;       ///< probabilities stay between these, so that the map can change its mind (OctoMap's values)
   double clamp_high = 0.971;
+  std::string evidence = "views";  ///< "views": a look from where the sensor stood before is no new witness | "scans": every scan counts, as in 2018
+  double tolerance = 0.02;         ///< of the quadtree: as far as probabilities near 1/2 may be off (log-odds by four times that)
+  std::string initial;             ///< a file of probabilities to begin with; empty: nothing is known
 };
 const Section& map_section();
 
@@ -34,6 +44,7 @@ struct CellView {
   bool known = false;            ///< sensed at least once
   double probability = 0.5;      ///< of matter that a beam cannot pass
   bool sensed_through = false;   ///< the last beam through it was inside matter there: penetrable, may still stop motion
+  double last_seen = -std::numeric_limits<double>::infinity();  ///< s, when it or a cell nearby (of its block of 8 x 8; in the quadtree of 64 x 64) was last sensed
 };
 
 /// Cell (column, row) covers [column, column + 1) x [row, row + 1) times the resolution; indices may be negative.
@@ -42,14 +53,23 @@ struct CellIndex {
   bool operator==(const CellIndex&) const = default;
 };
 
-/// Log-odds in 8 bits, in tiles that exist only where something was seen. Copies share tiles until one of them writes.
+class Cells;
+class SensorModel;
+class ViewMemory;
+class Window;
+
+/// Log-odds of matter (Moravec & Elfes 1985 in the log-odds form of Thrun 2003; clamped as in OctoMap, 2013). A copy is a snapshot: with the store "tiles" it shares all cells until one of both writes.
 ///
-/// One scan updates each cell once: occupied (an echo lies in it) before sensed through before free. Free is what a beam passed in the open, sensed through what it
-/// passed between the edges of matter; behind the end of a beam nothing is said. A beam with an opening counts as a fan of thin ones, whose arc of echoes is all occupied. In units of 1/32, log-odds of a cell rise by logit(probability_hit)
-/// or fall by logit(probability_miss), between the clamps (Moravec & Elfes 1985 in the log-odds form of Thrun 2003; clamping as OctoMap, 2013).
+/// One scan updates each cell once, and occupied wins over sensed through over free. What a beam and what a lobe say of the cells is told in docs/mapping.md, and so is when a look counts as a new witness.
+/// Reading one map from several threads at once is not safe, reading copies of it is.
 class OccupancyMap {
  public:
   explicit OccupancyMap(const MapSpec& spec);
+  OccupancyMap(const OccupancyMap& other);
+  OccupancyMap& operator=(const OccupancyMap& other);
+  OccupancyMap(OccupancyMap&&) noexcept;
+  OccupancyMap& operator=(OccupancyMap&&) noexcept;
+  ~OccupancyMap();
 
   /// Takes in a scan made from a vehicle's (estimated) pose.
   void integrate(const Scan& scan, const Pose& vehicle);
@@ -60,9 +80,10 @@ class OccupancyMap {
   /// Free with the certainty of the clamp.
   bool surely_free(const CellIndex& cell) const;
 
-  /// Cells known so far, and bytes of their tiles.
+  /// Cells known so far, bytes that hold them, and cells that scans told something of so far, each counted with every scan.
   std::size_t known_cells() const;
   std::size_t memory_bytes() const;
+  std::uint64_t cells_updated() const { return cells_updated_; }
   /// The smallest block of cells that holds all known ones: first and one past the last; nothing for an empty map.
   std::optional<std::pair<CellIndex, CellIndex>> extent() const;
 
@@ -70,48 +91,21 @@ class OccupancyMap {
   GridMap to_grid() const;
   /// All that is known, over the block of cells that `extent` gives; empty for an empty map.
   ProbabilityGrid to_probabilities() const;
+  /// Puts in what is known beforehand, between the clamps. Errors: a grid of another resolution, or whose origin is not a multiple of it.
+  Result<Done> start_from(const ProbabilityGrid& grid);
+
+  /// The cells that are not as they were in an earlier copy of this map, in few bytes: for windows, and for links with little bandwidth. To 1/32 nat of log-odds.
+  std::vector<std::uint8_t> changes_since(const OccupancyMap& earlier) const;
+  /// Makes a copy of the earlier map a copy of the later one. Errors: bytes that are no such update, or of another resolution; then nothing is changed.
+  Result<Done> apply_changes(std::span<const std::uint8_t> changes);
 
  private:
-  static constexpr int tile_bits = 6, tile_size = 1 << tile_bits;
-  static constexpr std::int8_t unknown = -128;
-  struct Tile {
-    std::array<std::int8_t, tile_size * tile_size> log_odds;
-    std::array<std::uint64_t, tile_size> through{};  ///< a bit a cell: sensed through
-    Tile() { log_odds.fill(unknown); }
-  };
-  struct CellHash {
-    std::size_t operator()(const CellIndex& i) const {
-      return static_cast<std::size_t>(i.column) * 0x9e3779b97f4a7c15u ^ static_cast<std::size_t>(i.row) * 0xc2b2ae3d27d4eb4fu;
-    }
-  };
-  /// A window of cells around the sensor, in which a scan is drawn before it is taken into the tiles. Scratch: a copy of a map starts with an empty one.
-  struct Window {
-    Window() = default;
-    Window(const Window&) : Window() {}
-    Window& operator=(const Window&) { return *this; }
-    Window(Window&&) = default;
-    Window& operator=(Window&&) = default;
-    ~Window() = default;
-
-    std::vector<std::uint8_t> states;  ///< a square of cells, all untouched between scans
-    std::int64_t tiles = 0;            ///< its edge, in tiles
-    /// From a row to the next: an odd number of tiles, for a power of two would put all cells of a column into one set of the cache.
-    std::int64_t stride() const { return (tiles | 1) * tile_size; }
-    CellIndex tile;  ///< the tile of its lower-left cell
-  };
-  enum State : std::uint8_t { untouched = 0, free = 1, through = 2, occupied = 3 };
-
-  void place_window(const Scan& scan, const glm::dvec2& sensor);
-  void draw_beam(const Scan& scan, const Beam& beam, const glm::dvec2& from, const glm::dvec2& direction, double scale);
-  void apply();
-  void apply_to_tile(const CellIndex& tile, std::uint8_t* states);
-  const Tile* tile(const CellIndex& cell) const;
-
   MapSpec spec_;
-  int low_;  ///< the lower clamp in units of 1/32
-  std::array<std::int8_t, 4 * 256> next_value_;  ///< [state * 256 + value as a byte]: what a scan makes of a cell
-  std::unordered_map<CellIndex, std::shared_ptr<Tile>, CellHash> tiles_;
-  Window window_;
+  std::unique_ptr<Cells> cells_;
+  std::unique_ptr<SensorModel> model_;
+  std::unique_ptr<ViewMemory> views_;
+  std::unique_ptr<Window> window_, again_;  ///< what is new in a scan, and what was seen from here before
+  std::uint64_t cells_updated_ = 0;
 };
 
 }  // namespace thicket

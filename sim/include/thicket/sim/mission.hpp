@@ -65,6 +65,7 @@ struct Mission {
 
   std::filesystem::path world_file;   ///< where `world` was found
   std::filesystem::path image_file;   ///< where `world_image` was found, or empty
+  std::filesystem::path initial_map_file;  ///< where `map.initial` was found, or empty
 };
 
 /// One change to a mission's file before it is read: `--set key=value`, or a flag that stands for it.

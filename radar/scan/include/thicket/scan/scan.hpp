@@ -72,6 +72,7 @@ struct Scan {
   glm::dquat mount_orientation{1.0, 0.0, 0.0, 0.0};
   double range_min = 0.0, range_max = 0.0;  ///< m
   double azimuth_opening = 0.0, elevation_opening = 0.0;  ///< rad, full: an echo of a beam lies anywhere in this about its direction; 0: along its direction
+  double range_noise = 0.0;                 ///< m, standard deviation of the ranges as the sensor's maker states it; 0: not stated
   std::uint64_t rays = 0;                   ///< rays traced for it
   std::vector<Beam> beams;
   std::vector<Echo> echoes;

@@ -1,0 +1,44 @@
+// Inverse sensor models: what a scan says of the cells around the sensor. Private to the room.
+#pragma once
+
+#include <functional>
+
+#include <glm/vec2.hpp>
+
+#include "thicket/base/pose.hpp"
+#include "thicket/scan/scan.hpp"
+#include "window.hpp"
+
+namespace thicket {
+
+/// Draws scans into a window.
+///
+/// A thin beam: free before its first echo, sensed through between the edges of matter, occupied at each echo, nothing behind its end. Where its ranges are less sure than half a cell, the log-likelihood ratio of a
+/// normal error falls off on both sides of an echo: hit - d^2 / 2 sigma^2, down to that of a miss before it, and to nothing behind it (Thrun, Burgard & Fox 2005, section 9.2, with the error of the range).
+///
+/// A beam with an opening (a lobe) tells how far, not where: all of its opening is free before the first echo, with the certainty of its probability of detection; of the arc at the echo just one place need be matter.
+/// Each cell there is as likely to be it as it was occupied before, times the normal error (Elfes 1987, in the form of Konolige 1997): cells known free stay so, and what is left of the arc gets all.
+class SensorModel {
+ public:
+  explicit SensorModel(const MapSpec& spec);
+
+  /// How far the scan has anything to say, m, sigma included.
+  double reach(const Scan& scan) const;
+  /// `sensor`: its pose in the world. `probability`: of matter in a cell as known before the scan. The window lies around the sensor and holds `reach`.
+  void draw(const Scan& scan, const Pose& sensor, const std::function<double(const CellIndex&)>& probability, Window& window) const;
+
+  /// Standard deviation of a scan's ranges, m.
+  double sigma(const Scan& scan) const;
+  int hit() const { return hit_; }
+  int miss() const { return miss_; }
+
+ private:
+  void draw_beams(const Scan& scan, const Pose& sensor, Window& window) const;
+  void draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2& from, double axis, double shrink, const std::function<double(const CellIndex&)>& probability, Window& window) const;
+
+  double resolution_, sigma_;
+  double probability_hit_;
+  int hit_, miss_, unseen_;  ///< evidence of an echo, of a beam that went through, of a lobe that saw nothing there
+};
+
+}  // namespace thicket
