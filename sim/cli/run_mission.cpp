@@ -94,6 +94,12 @@ std::string summary(const Simulation& simulation, double wall, const std::filesy
                      totals.path_length, totals.least_clearance, totals.scans, folder.string());
 }
 
+std::string headline(const RunScore& score) {
+  const MapScore& m = score.map;
+  return fmt::format("  map: F1 {:.3f} within {:g} m (precision {:.3f}), NLL of claimed cells {:.3f}, coverage {:.1f} %, by {}\n", m.f1, m.tolerance_m, m.precision, m.claimed_nll, 100.0 * m.coverage,
+                     to_string(score.convention));
+}
+
 }  // namespace
 
 int run_mission(const RunArguments& arguments) {
@@ -126,12 +132,19 @@ int run_mission(const RunArguments& arguments) {
   const double wall_run = run(*simulation, trajectory, options);
   progress.end();
 
-  const auto written = write_outputs(folder, *simulation, trajectory, wall_start, wall_run);
+  // What cannot be scored is still a run: its files are written.
+  std::optional<RunScore> score;
+  if (mission->output.score) {
+    const auto judged = score_run(*simulation);
+    if (judged) score = *judged;
+    else fmt::print(stderr, "warning: no score.json: {}\n", judged.error().message);
+  }
+  const auto written = write_outputs(folder, *simulation, trajectory, wall_start, wall_run, score);
   if (!written) return complain(written.error());
   if (arguments.json) {
-    fmt::print("{}", result_json(*simulation));
+    fmt::print("{}", result_json(*simulation, score));
   } else if (!arguments.quiet) {
-    fmt::print("{}", summary(*simulation, wall_run, folder));
+    fmt::print("{}{}", summary(*simulation, wall_run, folder), score ? headline(*score) : "");
   }
   return exit_code(*simulation->verdict());
 }

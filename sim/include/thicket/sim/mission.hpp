@@ -37,6 +37,7 @@ struct OutputSpec {
   bool map = true;
   bool picture = true;
   bool path_picture = true;
+  bool score = false;
   std::optional<glm::dvec4> observed_region_m;
 };
 
