@@ -18,7 +18,7 @@ namespace thicket::map_work {
 
 /// The cells of the hall.
 struct Raster {
-  explicit Raster(double resolution) : cells(static_cast<int>(std::lround(2.0 * half_side / resolution))), per_metre(1.0 / resolution), resolution(resolution) {}
+  explicit Raster(double cell_m) : cells(static_cast<int>(std::lround(2.0 * half_side / cell_m))), per_metre(1.0 / cell_m), resolution(cell_m) {}
 
   int cells;  ///< along an edge
   double per_metre, resolution;
@@ -30,7 +30,7 @@ struct Raster {
 
   /// Calls `visit(index)` for every cell of a line (Bresenham), both ends included, and returns the last one.
   template <class Visit>
-  int walk(const glm::dvec2& from, const Ray& ray, Visit&& visit) const {
+  int walk(const glm::dvec2& from, const Reading& ray, Visit&& visit) const {
     const int column = cell(from.x), row = cell(from.y), to_column = cell(from.x + ray.range * std::cos(ray.bearing)), to_row = cell(from.y + ray.range * std::sin(ray.bearing));
     int at = index(column, row);
     const int columns = std::abs(to_column - column), rows = std::abs(to_row - row), sideways = to_column > column ? 1 : -1, upward = to_row > row ? cells : -cells;
@@ -48,7 +48,7 @@ struct Raster {
     visit(at);
     return at;
   }
-  int end_of(const glm::dvec2& from, const Ray& ray) const { return index(cell(from.x + ray.range * std::cos(ray.bearing)), cell(from.y + ray.range * std::sin(ray.bearing))); }
+  int end_of(const glm::dvec2& from, const Reading& ray) const { return index(cell(from.x + ray.range * std::cos(ray.bearing)), cell(from.y + ray.range * std::sin(ray.bearing))); }
 };
 
 /// Distinct cells under the rays of each step, added up: what times are stated per.
@@ -57,7 +57,7 @@ inline double distinct_cells(const std::vector<Step>& steps, double resolution) 
   std::vector<int> seen(raster.count(), -1);
   double count = 0.0;
   for (int k = 0; k < static_cast<int>(steps.size()); ++k)
-    for (const Ray& ray : steps[static_cast<std::size_t>(k)].rays)
+    for (const Reading& ray : steps[static_cast<std::size_t>(k)].rays)
       raster.walk(steps[static_cast<std::size_t>(k)].pose.position, ray, [&](int i) {
         int& last = seen[static_cast<std::size_t>(i)];
         count += last != k;
@@ -70,7 +70,7 @@ inline double distinct_cells(const std::vector<Step>& steps, double resolution) 
 inline Step as_fans(const Step& step, double width) {
   Step fans{step.pose, {}, {}};
   const int rays = static_cast<int>(std::lround(degrees(width)));
-  for (const Ray& lobe : step.rays)
+  for (const Reading& lobe : step.rays)
     for (int i = 0; i < rays; ++i) fans.rays.push_back({lobe.bearing + (i + 0.5) / rays * width - width / 2.0, lobe.range, lobe.hit});
   return fans;
 }
@@ -80,8 +80,8 @@ class OverwriteGrid {
  public:
   explicit OverwriteGrid(double resolution) : raster_(resolution), cells_(raster_.count(), 255) {}
   void integrate(const Step& step) {
-    for (const Ray& ray : step.rays) raster_.walk(step.pose.position, ray, [this](int i) { cells_[static_cast<std::size_t>(i)] = 0; });
-    for (const Ray& ray : step.rays)
+    for (const Reading& ray : step.rays) raster_.walk(step.pose.position, ray, [this](int i) { cells_[static_cast<std::size_t>(i)] = 0; });
+    for (const Reading& ray : step.rays)
       if (ray.hit) cells_[static_cast<std::size_t>(raster_.end_of(step.pose.position, ray))] = 254;
   }
 
@@ -99,9 +99,9 @@ class EpochGrid {
       for (Cell& cell : cells_) cell.epoch = 0;
       epoch_ = 1;
     }
-    for (const Ray& ray : step.rays)
+    for (const Reading& ray : step.rays)
       if (ray.hit) update(raster_.end_of(step.pose.position, ray), 17);
-    for (const Ray& ray : step.rays) raster_.walk(step.pose.position, ray, [this](int i) { update(i, -8); });
+    for (const Reading& ray : step.rays) raster_.walk(step.pose.position, ray, [this](int i) { update(i, -8); });
   }
 
  private:
@@ -128,14 +128,14 @@ class LogOddsGrid {
   /// Plain log-odds with OctoMap's numbers (0.7, 0.4, clamps 0.1192 and 0.971): each cell once a scan, occupied wins.
   void integrate(const Step& step) {
     ++scan_;
-    for (const Ray& ray : step.rays)
+    for (const Reading& ray : step.rays)
       if (ray.hit) update(raster_.end_of(step.pose.position, ray), hit, -2.0f, 3.5f);
-    for (const Ray& ray : step.rays) raster_.walk(step.pose.position, ray, [this](int i) { update(i, miss, -2.0f, 3.5f); });
+    for (const Reading& ray : step.rays) raster_.walk(step.pose.position, ray, [this](int i) { update(i, miss, -2.0f, 3.5f); });
   }
 
   /// The rule of Billdal 2018, as plain as can be: of every cell in a lobe, +17 within 2 sigma of the range at its azimuth and -8 before it, in units of 0.05, between -40 and 70. `naive` on purpose: an
   /// arc tangent a cell. `rays` are the lobe's, over `width` about `axis`. Returns how many cells it touched.
-  std::size_t integrate_lobe(const glm::dvec2& from, double axis, double width, const Ray* rays, int ray_count, double range_max, double sigma) {
+  std::size_t integrate_lobe(const glm::dvec2& from, double axis, double width, const Reading* rays, int ray_count, double range_max, double sigma) {
     ++scan_;
     std::size_t touched = 0;
     for (int row = raster_.cell(from.y - range_max); row <= raster_.cell(from.y + range_max); ++row)
@@ -144,7 +144,7 @@ class LogOddsGrid {
         if (range > range_max) continue;
         const double off = std::remainder(std::atan2(y, x) - axis, 2.0 * pi);
         if (std::abs(off) >= width / 2.0) continue;
-        const Ray& ray = rays[static_cast<int>((off + width / 2.0) / width * ray_count)];
+        const Reading& ray = rays[static_cast<int>((off + width / 2.0) / width * ray_count)];
         if (range < ray.range - 2.0 * sigma) {
           update(raster_.index(column, row), -0.4f, -2.0f, 3.5f);
         } else if (ray.hit && range <= ray.range + 2.0 * sigma) {
@@ -195,7 +195,7 @@ class OctoMapPeer {
   void integrate(const Step& step) {
     octomap::Pointcloud cloud;
     const glm::dvec2 at = step.pose.position;
-    for (const Ray& ray : step.rays) {
+    for (const Reading& ray : step.rays) {
       const double range = ray.hit ? ray.range : 1.01 * range_max_;  // past the range it is only free
       cloud.push_back(static_cast<float>(at.x + range * std::cos(ray.bearing)), static_cast<float>(at.y + range * std::sin(ray.bearing)), 0.0f);
     }

@@ -47,8 +47,8 @@ struct Hall {
     const double c = std::cos(bearing), s = std::sin(bearing);
     double nearest = std::numeric_limits<double>::infinity();
     for (const Block& b : blocks) {
-      const auto [x_in, x_out] = std::minmax((b.x0 - from.x) / c, (b.x1 - from.x) / c);
-      const auto [y_in, y_out] = std::minmax((b.y0 - from.y) / s, (b.y1 - from.y) / s);
+      const auto [x_in, x_out] = std::minmax({(b.x0 - from.x) / c, (b.x1 - from.x) / c});
+      const auto [y_in, y_out] = std::minmax({(b.y0 - from.y) / s, (b.y1 - from.y) / s});
       const double in = std::max(x_in, y_in), out = std::min(x_out, y_out);
       if (in <= out && in > 0.0) nearest = std::min(nearest, in);
     }
@@ -108,7 +108,7 @@ struct Instrument {
 };
 
 /// A range in a direction; of an instrument with one range, of a lobe about that direction.
-struct Ray {
+struct Reading {
   double bearing;  ///< rad, in the world
   double range;    ///< m; of a ray without a return the range of the instrument
   bool hit;
@@ -117,7 +117,7 @@ struct Ray {
 /// What an instrument tells at a pose. As rays for peers, as scans for Thicket's map: one of all rays, or one a lobe where lobes have one range.
 struct Step {
   Pose2 pose;
-  std::vector<Ray> rays;
+  std::vector<Reading> rays;
   std::vector<Scan> scans;
 
   Pose pose_in_space() const { return Pose::planar(pose.position.x, pose.position.y, 1.0, pose.yaw); }
@@ -198,7 +198,7 @@ class Source {
         }
         step.scans.push_back(std::move(scan));
       }
-      const Ray& ray = step.rays[static_cast<std::size_t>(i)];
+      const Reading& ray = step.rays[static_cast<std::size_t>(i)];
       Scan& scan = step.scans.back();
       Beam beam;
       beam.azimuth = instrument_.one_range ? 0.0 : azimuth(i);

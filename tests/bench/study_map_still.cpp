@@ -70,7 +70,7 @@ Change change_of(const Instrument& instrument, const Raster& raster) {
   Change change{{middle.x - 0.3, middle.y - 0.3, middle.x + 0.3, middle.y + 0.3}, {}};
   source.hall.blocks.push_back(change.box);
   const Step step = source.next();
-  for (const Ray& ray : (instrument.one_range ? as_fans(step, instrument.width) : step).rays) {
+  for (const Reading& ray : (instrument.one_range ? as_fans(step, instrument.width) : step).rays) {
     const glm::dvec2 end = pose.position + (ray.range + 0.01) * direction(ray.bearing);
     if (change.box.distance(end) == 0.0) change.front.push_back(raster.index(raster.cell(end.x), raster.cell(end.y)));
   }
@@ -79,12 +79,22 @@ Change change_of(const Instrument& instrument, const Raster& raster) {
   return change;
 }
 
-/// How many scans it takes until at least half of the front is claimed, or at most half of it any more.
+/// Whether a cell that is claimed lies within so many metres of a cell.
+bool claimed_near(int index, double distance, const std::vector<std::uint8_t>& claimed, const Raster& raster) {
+  const int reach = static_cast<int>(distance / raster.resolution + 1e-6), column = index % raster.cells, row = index / raster.cells;
+  for (int y = std::max(0, row - reach); y <= std::min(raster.cells - 1, row + reach); ++y)
+    for (int x = std::max(0, column - reach); x <= std::min(raster.cells - 1, column + reach); ++x)
+      if (std::hypot(x - column, y - row) <= distance / raster.resolution + 1e-6 && claimed[static_cast<std::size_t>(raster.index(x, y))]) return true;
+  return false;
+}
+
+/// How many scans it takes until at least half of the front has a claimed cell within two sigma, or no longer has.
 std::string scans_until(bool there, Source& source, const Mapper& mapper, const Change& change, const Raster& raster, std::size_t most) {
+  const double near = std::max(2.0 * source.instrument().sigma, raster.resolution);
   for (std::size_t scan = 1; scan <= most; ++scan) {
     mapper.integrate(source.next());
     const auto claimed = claims(mapper.cells(), raster);
-    const auto of_front = std::count_if(change.front.begin(), change.front.end(), [&](int i) { return claimed[static_cast<std::size_t>(i)] != 0; });
+    const auto of_front = std::count_if(change.front.begin(), change.front.end(), [&](int i) { return claimed_near(i, near, claimed, raster); });
     const bool half = 2 * of_front >= static_cast<std::ptrdiff_t>(change.front.size());
     if (half == there) return std::to_string(scan);
   }
@@ -152,7 +162,7 @@ void study_still(const StillOptions& o) {
   fmt::print("Standing still, {:g} % clutter, cells of {:g} m, clamps 0.1192 and 0.971, truth any_overlap. Wrong: claimed and more than 4 σ from all matter; looked for in each of the first {} scans and in every {}th:\n\n{}\n",
              100.0 * o.clutter, o.resolution, settled, o.every,
              markdown({"work", "noise", "map", "scans", "wrong now", fmt::format("new since scan {}", settled), "NLL of claimed", "mean p of claimed", "NLL of all", "precision @ 0.2 m"}, rows, 3));
-  fmt::print("Then a box of 0.6 m is put 3 m ahead, and after {} scans more taken away: scans until at least half of the cells of its front are claimed, and until they no longer are:\n\n{}",
+  fmt::print("Then a box of 0.6 m is put 3 m ahead, and after {} scans more taken away: scans until at least half of the cells of its front have a claimed one within 2 σ (at least a cell), and until they no longer have:\n\n{}",
              std::min<std::size_t>(o.scans, 1000), markdown({"work", "noise", "map", "scans before", "until occupied", "until free", "cells of the front"}, changes, 3));
 }
 

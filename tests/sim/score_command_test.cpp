@@ -149,7 +149,7 @@ TEST_CASE("what a truth takes for matter is what the sensors can know") {
   const TemporaryFolder folder;
   const std::vector<std::string> materials = {"", "attenuation_db_per_m = 8.0\nreflectivity = 0.05", "attenuation_db_per_m = 50.0", "attenuation_db_per_m = 0.0\nreflectivity = 0.0\nstops_motion = false\nlight_extinction_per_m = 0.5",
                                               "preset = \"concrete\"", "preset = \"glass\"\nstops_light = false"};
-  const std::string radar = "[[sensor]]\ntype = \"scanning_radar\"\n", lidar = "[[sensor]]\ntype = \"lidar\"\n";
+  const std::string radar = "[[sensor]]\ntype = \"scanning_radar\"\n", lidar = "[[sensor]]\ntype = \"lidar\"\nname = \"lidar\"\n";
   // wall, foliage, hedge (50 dB/m: 10 dB are gone in 0.2 m), smoke, concrete, glass
   CHECK(roles(folder, materials, radar).substr(0, 5) == "sps.s");
   CHECK(roles(folder, materials, lidar) == "ssspsp");
