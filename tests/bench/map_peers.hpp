@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include <glm/common.hpp>
+
 #include "map_work.hpp"
 #include "thicket/base/probability_grid.hpp"
 
@@ -137,9 +139,21 @@ class LogOddsGrid {
   /// arc tangent a cell. `rays` are the lobe's, over `width` about `axis`. Returns how many cells it touched.
   std::size_t integrate_lobe(const glm::dvec2& from, double axis, double width, const Reading* rays, int ray_count, double range_max, double sigma) {
     ++scan_;
+    // The rectangle that holds the sector as far as it says anything.
+    double reach = 0.0;
+    for (int i = 0; i < ray_count; ++i) reach = std::max(reach, std::min(range_max, rays[i].range + 2.0 * sigma));
+    glm::dvec2 low = from, high = from;
+    const auto hold = [&](double bearing) {
+      low = glm::min(low, from + reach * direction(bearing));
+      high = glm::max(high, from + reach * direction(bearing));
+    };
+    hold(axis - width / 2.0);
+    hold(axis + width / 2.0);
+    for (int i = 0; i < 4; ++i)
+      if (std::abs(std::remainder(i * pi / 2.0 - axis, 2.0 * pi)) < width / 2.0) hold(i * pi / 2.0);
     std::size_t touched = 0;
-    for (int row = raster_.cell(from.y - range_max); row <= raster_.cell(from.y + range_max); ++row)
-      for (int column = raster_.cell(from.x - range_max); column <= raster_.cell(from.x + range_max); ++column) {
+    for (int row = raster_.cell(low.y); row <= raster_.cell(high.y); ++row)
+      for (int column = raster_.cell(low.x); column <= raster_.cell(high.x); ++column) {
         const double x = raster_.centre(column) - from.x, y = raster_.centre(row) - from.y, range = std::sqrt(x * x + y * y);
         if (range > range_max) continue;
         const double off = std::remainder(std::atan2(y, x) - axis, 2.0 * pi);
