@@ -4,6 +4,7 @@
 
 #include <cctype>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 
@@ -96,8 +97,9 @@ std::string summary(const Simulation& simulation, double wall, const std::filesy
 
 std::string headline(const RunScore& score) {
   const MapScore& m = score.map;
-  return fmt::format("  map: F1 {:.3f} within {:g} m (precision {:.3f}), NLL of claimed cells {:.3f}, coverage {:.1f} %, by {}\n", m.f1, m.tolerance_m, m.precision, m.claimed_nll, 100.0 * m.coverage,
-                     to_string(score.convention));
+  const auto figure = [](double value, int digits) { return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "-"; };
+  return fmt::format("  map: F1 {} within {:g} m (precision {}), NLL of claimed cells {}, coverage {} %, by {}\n", figure(m.f1, 3), m.tolerance_m, figure(m.precision, 3), figure(m.claimed_nll, 3),
+                     figure(100.0 * m.coverage, 1), to_string(score.convention));
 }
 
 }  // namespace

@@ -151,14 +151,17 @@ class LogOddsGrid {
     hold(axis + width / 2.0);
     for (int i = 0; i < 4; ++i)
       if (std::abs(std::remainder(i * pi / 2.0 - axis, 2.0 * pi)) < width / 2.0) hold(i * pi / 2.0);
+    const float half_turn = static_cast<float>(pi), axis_at = static_cast<float>(std::remainder(axis, 2.0 * pi)), half_width = static_cast<float>(width / 2.0), range_most = static_cast<float>(range_max);
+    const float per_radian = static_cast<float>(ray_count) / static_cast<float>(width) * 0.999999f;
     std::size_t touched = 0;
     for (int row = raster_.cell(low.y); row <= raster_.cell(high.y); ++row)
       for (int column = raster_.cell(low.x); column <= raster_.cell(high.x); ++column) {
-        const double x = raster_.centre(column) - from.x, y = raster_.centre(row) - from.y, range = std::sqrt(x * x + y * y);
-        if (range > range_max) continue;
-        const double off = std::remainder(std::atan2(y, x) - axis, 2.0 * pi);
-        if (std::abs(off) >= width / 2.0) continue;
-        const Reading& ray = rays[static_cast<int>((off + width / 2.0) / width * ray_count)];
+        const float x = static_cast<float>(raster_.centre(column) - from.x), y = static_cast<float>(raster_.centre(row) - from.y), range = std::sqrt(x * x + y * y);
+        if (range > range_most) continue;
+        float off = std::atan2(y, x) - axis_at;
+        off = off > half_turn ? off - 2.0f * half_turn : off < -half_turn ? off + 2.0f * half_turn : off;
+        if (std::abs(off) >= half_width) continue;
+        const Reading& ray = rays[static_cast<int>((off + half_width) * per_radian)];
         if (range < ray.range - 2.0 * sigma) {
           update(raster_.index(column, row), -0.4f, -2.0f, 3.5f);
         } else if (ray.hit && range <= ray.range + 2.0 * sigma) {

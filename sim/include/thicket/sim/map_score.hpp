@@ -55,7 +55,7 @@ struct MapScore {
 };
 
 /// Compares a map with the truth at its own cells. Claimed cells that lie within the tolerance of penetrable matter and not of a surface count neither for nor against the map: beams return from
-/// there. What of the map lies outside of the truth is not judged. `tolerance_m` >= 0. Takes some 15 bytes a cell and a time proportional to the number of cells (4000 x 4000: under a second).
+/// there. What of the map lies outside of the truth is not judged. `tolerance_m` >= 0. Takes some 15 bytes a cell and a time proportional to the number of cells (4000 x 4000: about a second).
 /// Errors: cells of another size, or not on the same lines, than those of the truth.
 Result<MapScore> score_map(const ProbabilityGrid& map, const MapTruth& truth, double tolerance_m = 0.2);
 /// The same where no matter is penetrable.
