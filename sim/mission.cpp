@@ -55,6 +55,7 @@ const Section& output_section() {
           .key("map_formats", &S::map_formats, "further files of the map, separated by commas: scale, raw (for map_server, with probabilities), npy (NumPy), ot, bt (OctoMap), picture (of the probabilities)")
           .key("picture", &S::picture, "map.png: what the robot mapped")
           .key("path_picture", &S::path_picture, "path.png: its way in the world as it is")
+          .key("score", &S::score, "score.json: how good the map is, judged by the world itself; the headline is in result.json")
           .key("observed_region_m", &S::observed_region_m, "m", between(-1e9, 1e9),
                "x_min, y_min, x_max, y_max: result.json tells which share of the free area in it was observed (from the world itself)");
   return section;

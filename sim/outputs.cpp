@@ -21,7 +21,16 @@ using Json = nlohmann::ordered_json;
 /// JSON has no infinity: what is not finite is null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json map_summary(const Simulation& simulation) {
+/// Of a score what a person compares runs by; score.json has the rest.
+Json headline(const RunScore& score) {
+  const MapScore& m = score.map;
+  return {{"truth", to_string(score.convention)},     {"tolerance_m", m.tolerance_m},
+          {"f1", number(m.f1)},                       {"precision", number(m.precision)},
+          {"strict_precision", number(m.strict_precision)}, {"claimed_nll", number(m.claimed_nll)},
+          {"coverage", number(m.coverage)},           {"edge_error_m", number(m.edge_error_m)}};
+}
+
+Json map_summary(const Simulation& simulation, const std::optional<RunScore>& score) {
   const OccupancyMap& map = simulation.map();
   Json json;
   json["resolution_m"] = map.resolution();
@@ -31,6 +40,7 @@ Json map_summary(const Simulation& simulation) {
     const auto share = observed_share(simulation, *region);
     json["observed_share_of_free_area"] = share ? Json(*share) : Json(nullptr);
   }
+  if (score) json["score"] = headline(*score);
   return json;
 }
 
@@ -86,7 +96,7 @@ std::optional<double> observed_share(const Simulation& simulation, const glm::dv
   return static_cast<double>(observed) / static_cast<double>(free);
 }
 
-std::string result_json(const Simulation& simulation) {
+std::string result_json(const Simulation& simulation, const std::optional<RunScore>& score) {
   const Mission& mission = simulation.mission();
   const RunTotals& totals = simulation.totals();
   const Pose2& pose = simulation.vehicle().pose;
@@ -115,7 +125,7 @@ std::string result_json(const Simulation& simulation) {
   json["steps"] = simulation.steps();
   json["scans"] = totals.scans;
   json["rays"] = totals.rays;
-  if (mission.map.enabled) json["map"] = map_summary(simulation);
+  if (mission.map.enabled) json["map"] = map_summary(simulation, score);
   json["seed"] = mission.seed;
   json["version"] = version();
   return json.dump(2) + "\n";
@@ -130,10 +140,13 @@ std::string timing_json(const Simulation& simulation, double wall_start_s, doubl
   json["realtime_factor"] = wall_run_s > 0.0 ? number(simulation.time() / wall_run_s) : Json(nullptr);
   json["phases_s"] = {{"trace", times.trace}, {"map", times.map}, {"plan", times.plan}, {"contact", times.contact},
                       {"other", wall_run_s - times.trace - times.map - times.plan - times.contact}};
+  // Time per cell belongs here too, once the map counts the cells that it updates.
+  if (const auto scans = simulation.totals().scans; simulation.mission().map.enabled && scans > 0) json["map_ms_per_scan"] = 1e3 * times.map / static_cast<double>(scans);
   return json.dump(2) + "\n";
 }
 
-Result<Done> write_outputs(const std::filesystem::path& folder, const Simulation& simulation, const Trajectory& trajectory, double wall_start_s, double wall_run_s) {
+Result<Done> write_outputs(const std::filesystem::path& folder, const Simulation& simulation, const Trajectory& trajectory, double wall_start_s, double wall_run_s,
+                           const std::optional<RunScore>& score) {
   const OutputSpec& output = simulation.mission().output;
   const bool with_map = simulation.mission().map.enabled && simulation.map().known_cells() > 0;
   // A folder that is used again holds nothing of the run before: result.json goes first and comes last, so that where it is, the rest is complete.
@@ -147,6 +160,7 @@ Result<Done> write_outputs(const std::filesystem::path& folder, const Simulation
   const auto wanted = [&](const MapFormat& format) { return with_map && std::ranges::find(named, format.name) != named.end(); };
   for (const MapFormat& format : further_formats())
     if (!wanted(format)) stale.insert(stale.end(), format.files.begin(), format.files.end());
+  if (!score) stale.emplace_back("score.json");
   for (const std::string& name : stale) std::filesystem::remove(folder / name, ignored);
   std::vector<Result<Done>> written;
   written.push_back(write_file(folder / "mission.toml", write_mission(simulation.mission())));
@@ -162,8 +176,9 @@ Result<Done> write_outputs(const std::filesystem::path& folder, const Simulation
   }
   if (output.picture) written.push_back(write_map_picture(folder / "map.png", simulation, trajectory));
   if (output.path_picture) written.push_back(write_path_picture(folder / "path.png", simulation, trajectory));
+  if (score) written.push_back(write_file(folder / "score.json", score_json(*score)));
   written.push_back(write_file(folder / "timing.json", timing_json(simulation, wall_start_s, wall_run_s)));
-  written.push_back(write_file(folder / "result.json", result_json(simulation)));  // last: where it is, the rest is
+  written.push_back(write_file(folder / "result.json", result_json(simulation, score)));  // last: where it is, the rest is
   for (const auto& one : written)
     if (!one) return one.error();
   return Done{};

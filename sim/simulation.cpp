@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "thicket/base/probability_file.hpp"
 #include "thicket/sim/auto_clearance.hpp"
 
 namespace thicket {

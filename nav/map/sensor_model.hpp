@@ -13,8 +13,9 @@ namespace thicket {
 
 /// Draws scans into a window.
 ///
-/// A thin beam: free before its first echo, sensed through between the edges of matter, occupied at each echo, nothing behind its end. Where its ranges are less sure than half a cell, the log-likelihood ratio of a
-/// normal error falls off on both sides of an echo: hit - d^2 / 2 sigma^2, down to that of a miss before it, and to nothing behind it (Thrun, Burgard & Fox 2005, section 9.2, with the error of the range).
+/// A thin beam: free before its first echo, sensed through between the edges of matter, occupied at each echo and half a cell behind a face, nothing behind its end. Where its ranges are less sure than half a cell, each cell
+/// within two sigma of an echo may be the one that gave it: as likely as it was occupied before, times the normal error of the range (the mixture of Thrun, Burgard & Fox 2005, section 9.3, beam by beam). If it is that one
+/// it is occupied, if the echo is from farther on the beam went through it, and if it is from nearer nothing is said: so noise does not thicken walls backward.
 ///
 /// A beam with an opening (a lobe) tells how far, not where: all of its opening is free before the first echo, with the certainty of its probability of detection; of the arc at the echo just one place need be matter.
 /// Each cell there is as likely to be it as it was occupied before, times the normal error (Elfes 1987, in the form of Konolige 1997): cells known free stay so, and what is left of the arc gets all.
@@ -33,7 +34,7 @@ class SensorModel {
   int miss() const { return miss_; }
 
  private:
-  void draw_beams(const Scan& scan, const Pose& sensor, Window& window) const;
+  void draw_beams(const Scan& scan, const Pose& sensor, const std::function<double(const CellIndex&)>& probability, Window& window) const;
   void draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2& from, double axis, double shrink, const std::function<double(const CellIndex&)>& probability, Window& window) const;
 
   double resolution_, sigma_;

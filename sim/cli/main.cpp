@@ -168,6 +168,13 @@ void add_reachability(CLI::App& app, ReachabilityArguments& a) {
              "theorem's bound + 2 m. Exit codes: 0 nothing is wrong or over, 2 bad usage or file, 4 interrupted, 6 something is wrong or over.");
 }
 
+void add_score(CLI::App& app, ScoreArguments& a) {
+  app.add_option("run_dir", a.folder, "folder that `thicket run` has written; the run is simulated once more, since its files do not hold probabilities")->required()->type_name("RUN_DIR");
+  app.add_option("--truth", a.truth, "when a cell is matter: cell_centre: its centre lies in it; any_overlap: it and matter share any area")->capture_default_str();
+  app.add_option("--tolerance", a.tolerance, "how far a claimed cell may be from a surface and still be right, metres")->check(CLI::NonNegativeNumber)->capture_default_str()->type_name("M");
+  app.add_flag("--json", a.json, "print all figures as JSON");
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app{"Thicket simulates robots that find their way by radar."};
   app.name("thicket");
@@ -188,6 +195,11 @@ int dispatch(int argc, char** argv) {
   run.add_option("--threads", arguments.threads, "threads to use; the result does not depend on it (default: all cores)")->check(CLI::Range(1, 1024));
   run.add_flag("--quiet", arguments.quiet, "no progress, no warnings, no summary");
   run.add_flag("--json", arguments.json, "print result.json instead of the summary");
+  run.add_flag("--score", arguments.score, "judge the map by the world itself: score.json, and the headline in result.json; as [output] score = true");
+
+  ScoreArguments score_arguments;
+  CLI::App& score = *app.add_subcommand("score", "how good the map of a run is, judged by the world itself (exit code 6: the run gives another map than the one in its folder)");
+  add_score(score, score_arguments);
 
   std::string topic;
   CheckArguments check_arguments;
@@ -237,8 +249,10 @@ int dispatch(int argc, char** argv) {
       return bad_input;
     }
     arguments.overrides = std::move(*overrides);
+    if (arguments.score) arguments.overrides.push_back({"output.score", "true", "--score"});
     return run_mission(arguments);
   }
+  if (score.parsed()) return score_folder(score_arguments);
   if (check.parsed()) {
     auto overrides = check_flags.overrides();
     if (!overrides) return bad_input;

@@ -24,6 +24,14 @@ struct RunArguments {
   int threads = 0;  ///< 0: as many as there are cores
   bool quiet = false;
   bool json = false;
+  bool score = false;  ///< as [output] score = true
+};
+
+struct ScoreArguments {
+  std::string folder;                ///< of a run
+  std::string truth = "cell_centre"; ///< or "any_overlap"
+  double tolerance = 0.2;            ///< m
+  bool json = false;
 };
 
 struct TruthArguments {
@@ -52,6 +60,8 @@ struct CheckArguments {
   std::string sensor = "usarsim2012";  ///< preset that a world's matter is held against
 };
 int run_mission(const RunArguments& arguments);
+/// Runs what a folder holds once more and scores its map: 0, or 6 if that is not the map in the folder.
+int score_folder(const ScoreArguments& arguments);
 int check_file(const CheckArguments& arguments);
 /// A world as a map or a picture, and whether there is a way: 0 if there is, 3 if not.
 int write_truth(const TruthArguments& arguments);

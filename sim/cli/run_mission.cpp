@@ -4,6 +4,7 @@
 
 #include <cctype>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 
@@ -94,6 +95,13 @@ std::string summary(const Simulation& simulation, double wall, const std::filesy
                      totals.path_length, totals.least_clearance, totals.scans, folder.string());
 }
 
+std::string headline(const RunScore& score) {
+  const MapScore& m = score.map;
+  const auto figure = [](double value, int digits) { return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "-"; };
+  return fmt::format("  map: F1 {} within {:g} m (precision {}), NLL of claimed cells {}, coverage {} %, by {}\n", figure(m.f1, 3), m.tolerance_m, figure(m.precision, 3), figure(m.claimed_nll, 3),
+                     figure(100.0 * m.coverage, 1), to_string(score.convention));
+}
+
 }  // namespace
 
 int run_mission(const RunArguments& arguments) {
@@ -126,12 +134,19 @@ int run_mission(const RunArguments& arguments) {
   const double wall_run = run(*simulation, trajectory, options);
   progress.end();
 
-  const auto written = write_outputs(folder, *simulation, trajectory, wall_start, wall_run);
+  // What cannot be scored is still a run: its files are written.
+  std::optional<RunScore> score;
+  if (mission->output.score) {
+    const auto judged = score_run(*simulation);
+    if (judged) score = *judged;
+    else fmt::print(stderr, "warning: no score.json: {}\n", judged.error().message);
+  }
+  const auto written = write_outputs(folder, *simulation, trajectory, wall_start, wall_run, score);
   if (!written) return complain(written.error());
   if (arguments.json) {
-    fmt::print("{}", result_json(*simulation));
+    fmt::print("{}", result_json(*simulation, score));
   } else if (!arguments.quiet) {
-    fmt::print("{}", summary(*simulation, wall_run, folder));
+    fmt::print("{}{}", summary(*simulation, wall_run, folder), score ? headline(*score) : "");
   }
   return exit_code(*simulation->verdict());
 }

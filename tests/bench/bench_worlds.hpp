@@ -27,6 +27,7 @@ void register_scene();
 void register_radar();
 void register_lobes();
 void register_nav();
+void register_mapping();
 void register_missions();
 void register_worlds();
 

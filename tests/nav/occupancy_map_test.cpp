@@ -47,7 +47,14 @@ std::map<std::pair<std::int64_t, std::int64_t>, Seen> slow_picture(const Scan& s
         if (e.range <= range) inside = e.edge != Edge::back;
       put(from + range * along, inside ? Seen::through : Seen::free);
     }
-    for (const Echo& e : scan.echoes_of(beam)) put(from + e.range * along, Seen::occupied);
+    // Matter lies behind its face: half a cell of it is told of, but nothing beyond its other face.
+    for (std::size_t i = 0; i < beam.echo_count; ++i) {
+      const Echo& e = scan.echoes_of(beam)[i];
+      const double next = i + 1 < beam.echo_count ? scan.echoes_of(beam)[i + 1].range : 1e9;
+      put(from + e.range * along, Seen::occupied);
+      if (e.edge != Edge::back)
+        for (double range = e.range; range < std::min(e.range + 0.5 * resolution, next); range += step) put(from + range * along, Seen::occupied);
+    }
   }
   return cells;
 }
@@ -55,6 +62,13 @@ std::map<std::pair<std::int64_t, std::int64_t>, Seen> slow_picture(const Scan& s
 MapSpec spec_at(double resolution) {
   MapSpec spec;
   spec.resolution_m = resolution;
+  return spec;
+}
+
+/// Every scan counts, for tests of what repeats add up to.
+MapSpec every_scan() {
+  MapSpec spec = spec_at(0.1);
+  spec.evidence = "scans";
   return spec;
 }
 
@@ -116,7 +130,7 @@ TEST_CASE("one scan updates a cell once, and occupied wins") {
 }
 
 TEST_CASE("log-odds are clamped and the map can change its mind") {
-  OccupancyMap map(spec_at(0.1));
+  OccupancyMap map(every_scan());
   ScanMaker hit, miss;
   hit.beam(0.0, {echo(1.05, Edge::front)}, 1.05, BeamEnd::stopped);
   miss.beam(0.0, {}, 3.0, BeamEnd::open);
@@ -164,7 +178,7 @@ TEST_CASE("the map agrees with a slow, obviously right one on random scans") {
 }
 
 TEST_CASE("a copy shares tiles and does not see later writes") {
-  OccupancyMap map(spec_at(0.1));
+  OccupancyMap map(every_scan());
   ScanMaker maker;
   maker.beam(0.0, {echo(1.05, Edge::front)}, 1.05, BeamEnd::stopped);
   const Pose pose = Pose::planar(0.05, 0.05, 0.0, 0.0);
@@ -188,7 +202,7 @@ TEST_CASE("cells far out and below zero have their own place, and memory follows
 }
 
 TEST_CASE("for map_server the map is trinary, and what was sensed through stays unknown") {
-  OccupancyMap map(spec_at(0.1));
+  OccupancyMap map(every_scan());
   ScanMaker maker;
   maker.beam(0.0, {echo(0.5, Edge::front), echo(1.0, Edge::back)}, 1.5, BeamEnd::open);
   for (int i = 0; i < 10; ++i) map.integrate(maker.scan, Pose::planar(0.05, 0.05, 0.0, 0.0));
@@ -230,6 +244,158 @@ TEST_CASE("behind a thin echo it is open again") {
   CHECK(map.view(map.cell_at({1.06, 0.0})).probability > 0.5);
   CHECK(map.view(map.cell_at({1.55, 0.0})).probability < 0.5);
   CHECK_FALSE(map.view(map.cell_at({1.55, 0.0})).sensed_through);
+}
+
+namespace {
+
+/// A way through random scans, beams and now and then through matter.
+void wander(OccupancyMap& map, int scans, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  for (int i = 0; i < scans; ++i) {
+    ScanMaker maker;
+    for (int b = 0; b < 40; ++b) {
+      const double range = uniform(1.0, 8.0);
+      if (b % 4 == 0) maker.beam(0.15 * b, {echo(range, Edge::front), echo(range + 0.7, Edge::back)}, range + 3.0, BeamEnd::open);
+      else maker.beam(0.15 * b, {echo(range, Edge::front)}, range, BeamEnd::stopped);
+    }
+    maker.scan.time = i;
+    map.integrate(maker.scan, Pose::planar(0.3 * i, uniform(-3.0, 3.0), 0.0, uniform(-3.0, 3.0)));
+  }
+}
+
+MapSpec kept_in(const char* store, int bits = 8) {
+  MapSpec spec = spec_at(0.1);
+  spec.store = store;
+  spec.cell_bits = bits;
+  return spec;
+}
+
+double log_odds(double probability) { return std::log(probability / (1.0 - probability)); }
+
+}  // namespace
+
+TEST_CASE("dense and tiles agree cell for cell, the quadtree within its tolerance, 8 bits with 16 to their rounding") {
+  OccupancyMap tiles(kept_in("tiles")), dense(kept_in("dense")), sixteen(kept_in("tiles", 16));
+  MapSpec exact_spec = kept_in("quadtree"), loose_spec = exact_spec;
+  exact_spec.tolerance = 0.0;
+  loose_spec.tolerance = 0.05;
+  OccupancyMap exact(exact_spec), loose(loose_spec);
+  for (OccupancyMap* map : {&tiles, &dense, &sixteen, &exact, &loose}) wander(*map, 60, 3);
+  const auto extent = tiles.extent();
+  REQUIRE(extent);
+  CHECK(dense.extent() == extent);
+  CHECK(tiles.known_cells() == dense.known_cells());
+  CHECK(tiles.known_cells() > 10000);
+  double worst = 0.0;
+  std::size_t differ = 0, off = 0;
+  for (std::int64_t row = extent->first.row; row < extent->second.row; ++row)
+    for (std::int64_t column = extent->first.column; column < extent->second.column; ++column) {
+      const CellView a = tiles.view({column, row}), b = dense.view({column, row}), c = exact.view({column, row}), d = loose.view({column, row}), e = sixteen.view({column, row});
+      differ += a.known != b.known || a.probability != b.probability || a.sensed_through != b.sensed_through || a.last_seen != b.last_seen;
+      differ += a.known != c.known || a.probability != c.probability || a.sensed_through != c.sensed_through;
+      differ += a.known != d.known || a.sensed_through != d.sensed_through;
+      if (a.known) worst = std::max(worst, std::abs(log_odds(a.probability) - log_odds(d.probability)));
+      off += a.known && std::abs(log_odds(a.probability) - log_odds(e.probability)) > 1.01 / 32.0;
+    }
+  CHECK(differ == 0);
+  CHECK(off == 0);
+  CHECK(worst > 0.0);  // something was merged
+  CHECK(worst <= log_odds(0.55) + 0.5 / 32.0);
+  CHECK(exact.memory_bytes() < dense.memory_bytes());
+  CHECK(loose.memory_bytes() < dense.memory_bytes());
+}
+
+TEST_CASE("repeats of a view add no certainty, with the same noise or with fresh; a changed one counts within 20 scans") {
+  const Pose pose = Pose::planar(0.05, 0.05, 0.0, 0.0);
+  std::mt19937 random(5);
+  for (const bool fresh : {false, true}) {
+    CAPTURE(fresh);
+    OccupancyMap map(spec_at(0.1));
+    const auto look = [&](double range) {
+      ScanMaker maker;
+      maker.beam(0.0, {echo(range, Edge::front)}, range, BeamEnd::stopped);
+      map.integrate(maker.scan, pose);
+    };
+    const auto near = [&](double range) { return fresh ? range + std::normal_distribution<double>(0.0, 0.01)(random) : range; };
+    look(near(1.0));
+    const CellView once = map.view({5, 0});
+    for (int i = 0; i < 500; ++i) {
+      // What one look in fifty makes up is never taken in.
+      look(i % 50 == 49 ? 0.5 : near(1.0));
+      CHECK(map.view({5, 0}).probability == once.probability);
+    }
+    CHECK(map.view({10, 0}).probability < 0.71);
+    CHECK(map.view({10, 0}).probability > 0.69);
+    for (int i = 0; i < 20; ++i) look(near(0.5));
+    CHECK(map.view({5, 0}).probability > 0.5);
+    for (int i = 0; i < 20; ++i) look(near(2.0));
+    CHECK(map.view({5, 0}).probability < 0.5);
+    CHECK(map.view({10, 0}).probability < 0.5);
+  }
+}
+
+TEST_CASE("an update makes a copy of the earlier map a copy of the later one, and is small where little changed") {
+  for (const char* store : {"tiles", "dense", "quadtree"}) {
+    CAPTURE(store);
+    OccupancyMap map(kept_in(store));
+    wander(map, 30, 4);
+    OccupancyMap copy = map, earlier = map;
+    CHECK(map.changes_since(earlier).size() < 16);
+    wander(map, 2, 5);
+    const auto update = map.changes_since(earlier);
+    CHECK(update.size() > 100);
+    CHECK(update.size() < map.known_cells());
+    REQUIRE(copy.apply_changes(update));
+    const ProbabilityGrid a = map.to_probabilities(), b = copy.to_probabilities();
+    REQUIRE(a.probability.size() == b.probability.size());
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < a.probability.size(); ++i) differ += a.known(i) != b.known(i) || a.sensed_through(i) != b.sensed_through(i) || (a.known(i) && std::abs(a.probability[i] - b.probability[i]) > 0.01f);
+    CHECK(differ == 0);
+    CHECK_FALSE(copy.apply_changes(std::span(update).first(update.size() - 1)));
+    CHECK_FALSE(copy.apply_changes(std::span(update).subspan(1)));
+  }
+}
+
+TEST_CASE("a map can begin with what another knew, on the same grid") {
+  OccupancyMap first(spec_at(0.1)), second(spec_at(0.1)), coarse(spec_at(0.2));
+  wander(first, 20, 6);
+  const ProbabilityGrid known = first.to_probabilities();
+  REQUIRE(second.start_from(known));
+  CHECK(second.known_cells() == first.known_cells());
+  CHECK(second.changes_since(first).size() < 16);
+  CHECK_FALSE(coarse.start_from(known));
+  ProbabilityGrid aside = known;
+  aside.origin.x += 0.03;
+  const auto refused = second.start_from(aside);
+  REQUIRE_FALSE(refused);
+  CHECK(refused.error().message.find("multiple") != std::string::npos);
+}
+
+TEST_CASE("a lobe frees all of its opening, and of its arc what other looks left over becomes matter") {
+  OccupancyMap map(spec_at(0.1));
+  const auto look = [&](const glm::dvec2& from, double yaw, std::vector<Echo> echoes, double sensed) {
+    ScanMaker maker;
+    maker.scan.azimuth_opening = radians(60.0);
+    maker.scan.range_noise = 0.05;
+    maker.beam(0.0, std::move(echoes), sensed, BeamEnd::open);
+    map.integrate(maker.scan, Pose::planar(from.x, from.y, 0.0, yaw));
+  };
+  look({0.05, 0.05}, 0.0, {echo(3.0, Edge::front)}, 3.0);
+  CHECK(map.view(map.cell_at({1.5, 0.5})).probability < 0.5);
+  CHECK(map.view(map.cell_at({1.5, -0.5})).probability < 0.5);
+  CHECK_FALSE(map.view(map.cell_at({1.5, 1.2})).known);  // outside of the opening
+  CHECK_FALSE(map.view(map.cell_at({3.5, 0.0})).known);  // behind the arc
+  CHECK_FALSE(map.view(map.cell_at({3.0, 0.0})).probability > 0.6);  // one of many
+  // A post at (3, 0) seen from elsewhere: arcs that cross there.
+  for (int i = 0; i < 30; ++i) {
+    const double angle = -1.0 + 2.0 * i / 29.0;
+    const glm::dvec2 from = glm::dvec2(3.0, 0.0) - 3.0 * direction(angle);
+    look(from, angle + 0.15, {echo(3.0, Edge::front)}, 3.0);
+    look(from, angle - 0.15, {echo(3.0, Edge::front)}, 3.0);
+  }
+  CHECK(std::max(map.view(map.cell_at({3.0, 0.0})).probability, map.view(map.cell_at({2.99, -0.01})).probability) > 0.5);
+  CHECK(map.view(map.cell_at({2.0, 0.0})).probability < 0.2);
 }
 
 }  // namespace thicket

@@ -167,7 +167,12 @@ TEST_CASE(".npy as NumPy's users may write it: float64, later formats, other spa
   check(npy("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 1), }", data));
   check(npy("{'shape':(2,1),'fortran_order':False,'descr':'<f8'}", data));
   const std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 1), }\n";
-  check(std::string("\x93NUMPY\x02\x00", 8) + static_cast<char>(header.size()) + std::string(3, '\0') + header + data);
+  std::string second("\x93NUMPY\x02\x00", 8);
+  second.push_back(static_cast<char>(header.size()));
+  second.append(3, '\0');
+  second += header;
+  second += data;
+  check(second);
 }
 
 TEST_CASE("a faulty .npy is told so") {

@@ -38,6 +38,7 @@ struct OutputSpec {
   bool picture = true;
   bool path_picture = true;
   std::string map_formats;  ///< besides map.pgm and map.yaml: names of `map_format_names`, separated by commas
+  bool score = false;
   std::optional<glm::dvec4> observed_region_m;
 };
 

@@ -1,0 +1,31 @@
+// The studies of mapping: tables for docs/mapping.md. Nothing here is a test; the figures do not depend on the machine.
+#include <CLI/CLI.hpp>
+
+#include "study_mapping.hpp"
+
+namespace thicket::study {
+
+int call(int argc, char** argv) {
+  CLI::App app{"Studies of mapping: tables for docs/mapping.md"};
+  app.require_subcommand(1);
+  QualityOptions quality;
+  auto* quality_command = app.add_subcommand("quality", "how good the maps of one way through a hall are, ours and others");
+  quality_command->add_option("--resolution", quality.resolution, "metres a cell")->check(CLI::Range(0.02, 1.0))->capture_default_str();
+  quality_command->add_option("--tolerance", quality.tolerance, "of the F1, metres")->check(CLI::NonNegativeNumber)->capture_default_str();
+  StillOptions still;
+  auto* still_command = app.add_subcommand("still", "standing still for long: what is claimed that is not there, and whether a change is still seen");
+  still_command->add_option("--scans", still.scans, "how many")->check(CLI::Range(10, 100000000))->capture_default_str();
+  still_command->add_option("--every", still.every, "scans between looks for wrong claims")->check(CLI::Range(1, 100000))->capture_default_str();
+  still_command->add_option("--most", still.most, "scans to wait for a change to be seen")->check(CLI::Range(1, 1000000))->capture_default_str();
+  still_command->add_option("--clutter", still.clutter, "chance of a false return of a ray")->check(CLI::Range(0.0, 1.0))->capture_default_str();
+  still_command->add_option("--resolution", still.resolution, "metres a cell")->check(CLI::Range(0.02, 1.0))->capture_default_str();
+  still_command->add_option("--works", still.works, "radar4x58, lidar360, lidar1440, lobe2018, separated by commas")->delimiter(',')->check(CLI::IsMember({"radar4x58", "lidar360", "lidar1440", "lobe2018"}));
+  CLI11_PARSE(app, argc, argv);
+  if (quality_command->parsed()) study_quality(quality);
+  if (still_command->parsed()) study_still(still);
+  return 0;
+}
+
+}  // namespace thicket::study
+
+int main(int argc, char** argv) { return thicket::study::call(argc, argv); }

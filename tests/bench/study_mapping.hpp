@@ -1,0 +1,40 @@
+// The studies of mapping: what each of them is called with, one function each.
+#pragma once
+
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "thicket/base/result.hpp"
+
+namespace thicket::study {
+
+struct QualityOptions {
+  double resolution = 0.1;  ///< m a cell
+  double tolerance = 0.2;   ///< m
+};
+/// Our map and others after one way through the hall, against the truth by both conventions.
+void study_quality(const QualityOptions& options);
+
+struct StillOptions {
+  std::size_t scans = 100000;
+  std::size_t every = 100;  ///< scans between looks for cells that are wrongly claimed
+  std::size_t most = 1000;  ///< scans to wait for a change to be seen
+  double clutter = 0.02;
+  double resolution = 0.1;  ///< m a cell
+  std::vector<std::string> works = {"radar4x58"};
+};
+/// Standing still for long, with noise that is fresh or always the same; and whether a change is still seen after it.
+void study_still(const StillOptions& options);
+
+/// What was made, or the end of the program with the message of what went wrong.
+template <class T>
+T made(Result<T> result) {
+  if (result) return std::move(*result);
+  std::fprintf(stderr, "study_mapping: %s\n", result.error().message.c_str());
+  std::exit(1);
+}
+
+}  // namespace thicket::study
