@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -87,7 +88,7 @@ void raise(Code& code, Code to) { code = std::max(code, to); }
 /// Where along a beam of which the range is not sure to the cell the matter is.
 struct Candidate {
   std::int64_t column, row;
-  double likelihood, probability;
+  double likelihood, odds;
 };
 
 // Matter lies behind its face: as deep as this, in cells, a face tells of it. (Else cells of which the middle is matter would be left out wherever the face is in the cell before.)
@@ -103,6 +104,18 @@ constexpr double on_border = 0.01;
 bool inside_after(const Echo& echo) { return echo.edge == Edge::front || echo.edge == Edge::inner; }
 
 }  // namespace
+
+double bell(double x) {
+  constexpr std::size_t steps = 512;
+  static const auto table = [] {
+    std::array<double, steps + 2> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::exp(-0.5 * std::pow(2.0 * static_cast<double>(i) / steps, 2));
+    return values;
+  }();
+  const double at = std::min(std::abs(x), 2.0) * (steps / 2.0), floor = std::floor(at);
+  const auto i = static_cast<std::size_t>(floor);
+  return table[i] + (at - floor) * (table[i + 1] - table[i]);
+}
 
 SensorModel::SensorModel(const MapSpec& spec)
     : resolution_(spec.resolution_m),
@@ -120,23 +133,24 @@ double SensorModel::reach(const Scan& scan) const {
   return reach + 3.0 * sigma(scan);
 }
 
-void SensorModel::draw(const Scan& scan, const Pose& sensor, const std::function<double(const CellIndex&)>& probability, Window& window) const {
-  if (scan.azimuth_opening <= 0.0) return draw_beams(scan, sensor, probability, window);
+void SensorModel::draw(const Scan& scan, const Pose& sensor, const Odds& odds, Window& window) const {
+  if (scan.azimuth_opening <= 0.0) return draw_beams(scan, sensor, odds, window);
   const CellIndex corner = window.corner();
   const glm::dvec2 from = glm::dvec2(sensor.position) / resolution_ - glm::dvec2(static_cast<double>(corner.column), static_cast<double>(corner.row));
   for (const Beam& beam : scan.beams) {
     const glm::dvec2 along(sensor.orientation * beam.direction);
     const double shrink = glm::length(along);  // of a beam that climbs or falls, its plan
-    if (shrink > 1e-9) draw_lobe(scan, beam, from, std::atan2(along.y, along.x), shrink, probability, window);
+    if (shrink > 1e-9) draw_lobe(scan, beam, from, std::atan2(along.y, along.x), shrink, odds, window);
   }
 }
 
-void SensorModel::draw_beams(const Scan& scan, const Pose& sensor, const std::function<double(const CellIndex&)>& probability, Window& window) const {
+void SensorModel::draw_beams(const Scan& scan, const Pose& sensor, const Odds& odds, Window& window) const {
   const CellIndex corner = window.corner();
   const glm::dvec2 from = glm::dvec2(sensor.position) / resolution_ - glm::dvec2(static_cast<double>(corner.column), static_cast<double>(corner.row));
   const double spread = sigma(scan) / resolution_;
   const bool sure = spread < 0.5;  // then an echo is in its cell
   const double about = 2.0 * spread;  // an echo that is not sure comes from within this
+  const double missed_factor = std::exp(miss_ / evidence_per_nat);
   std::vector<Candidate> candidates;
   const Code free = code_of(miss_);
   const auto line_of = [&](const Beam& beam, double& scale) {
@@ -191,17 +205,17 @@ void SensorModel::draw_beams(const Scan& scan, const Pose& sensor, const std::fu
       candidates.clear();
       double all = 0.0;
       walk(line, std::max(0.0, at - about), at + about, [&](std::int64_t column, std::int64_t row, double enters, double leaves) {
-        const double p = probability({corner.column + column, corner.row + row}), off = (0.5 * (enters + leaves) - at) / spread;
-        candidates.push_back({column, row, (leaves - enters) * p / (1.0 - p) * std::exp(-0.5 * off * off), p});
+        const double before = odds({corner.column + column, corner.row + row}), off = (0.5 * (enters + leaves) - at) / spread;
+        candidates.push_back({column, row, (leaves - enters) * before * bell(off), before});
         all += candidates.back().likelihood;
       });
       // If the matter is farther on, the beam went through this cell; if it is nearer, nothing is said of it.
       double nearer = 0.0;
       for (const Candidate& c : candidates) {
-        const double here = c.likelihood / all, farther = std::max(0.0, 1.0 - here - nearer), missed_odds = c.probability / (1.0 - c.probability) * std::exp(miss_ / evidence_per_nat);
-        const double after = here + farther * missed_odds / (1.0 + missed_odds) + nearer * c.probability;
+        const double here = c.likelihood / all, farther = std::max(0.0, 1.0 - here - nearer), missed = c.odds * missed_factor;
+        const double after = here + farther * missed / (1.0 + missed) + nearer * c.odds / (1.0 + c.odds);
         nearer += here;
-        const double evidence = evidence_per_nat * (std::log(after / std::max(1e-12, 1.0 - after)) - std::log(c.probability / (1.0 - c.probability)));
+        const double evidence = evidence_per_nat * std::log(after / (std::max(1e-12, 1.0 - after) * c.odds));
         const int whole = static_cast<int>(std::lround(std::clamp(evidence, static_cast<double>(miss_), static_cast<double>(hit_))));
         if (whole < 0 || whole >= least_told) raise(*window.at(c.column, c.row), code_of(std::min(whole, most_told)));
         else if (nearer - here < 0.5) raise(*window.at(c.column, c.row), code_of(0));

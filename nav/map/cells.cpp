@@ -18,8 +18,10 @@ template <class Cell>
 class CellsOf final : public Cells {
  public:
   explicit CellsOf(const MapSpec& spec)
-      : store_(make_store<Cell>(spec.store, to_units<Cell>(0.5 + spec.tolerance))), low_(to_units<Cell>(spec.clamp_low)), high_(to_units<Cell>(spec.clamp_high)) {}
-  CellsOf(const CellsOf& other) : store_(other.store_->clone()), low_(other.low_), high_(other.high_) {}
+      : store_(make_store<Cell>(spec.store, to_units<Cell>(0.5 + spec.tolerance))), low_(to_units<Cell>(spec.clamp_low)), high_(to_units<Cell>(spec.clamp_high)) {
+    for (std::size_t i = 0; i < odds_.size(); ++i) odds_[i] = std::exp(static_cast<std::int8_t>(i) / Units<std::int8_t>::per_nat);
+  }
+  CellsOf(const CellsOf& other) : store_(other.store_->clone()), low_(other.low_), high_(other.high_), odds_(other.odds_) {}
   std::unique_ptr<Cells> clone() const override { return std::make_unique<CellsOf>(*this); }
 
   std::size_t take(Window& window, bool limit, double time) override {
@@ -33,6 +35,14 @@ class CellsOf final : public Cells {
   CellView view(const CellIndex& cell) const override {
     const Tile<Cell>* tile = find(tile_of(cell));
     return tile ? view_of(*tile, place_in_tile(cell)) : CellView{};
+  }
+
+  double odds(const CellIndex& cell) const override {
+    const Tile<Cell>* tile = find(tile_of(cell));
+    const Cell value = tile ? tile->values[place_in_tile(cell)] : unknown_cell<Cell>;
+    if (value == unknown_cell<Cell>) return 1.0;
+    if constexpr (sizeof(Cell) == 1) return odds_[static_cast<std::uint8_t>(value)];
+    return std::exp(value / Units<Cell>::per_nat);
   }
 
   void put(const CellIndex& cell, double probability, bool through, double time) override {
@@ -147,6 +157,7 @@ class CellsOf final : public Cells {
 
   std::unique_ptr<Store<Cell>> store_;
   int low_, high_;
+  std::array<double, 256> odds_;  ///< of cells of 8 bits
   mutable Tile<Cell> scratch_;
   mutable const Tile<Cell>* cached_ = nullptr;
   mutable CellIndex cached_index_;

@@ -19,6 +19,8 @@ class Cells {
   /// Takes in a window and leaves it untouched. How many cells it told something of.
   virtual std::size_t take(Window& window, bool limit, double time) = 0;
   virtual CellView view(const CellIndex& cell) const = 0;
+  /// p / (1 - p) of matter; 1 where nothing is known.
+  virtual double odds(const CellIndex& cell) const = 0;
   /// A cell as it is read from a file or an update; NaN: unknown.
   virtual void put(const CellIndex& cell, double probability, bool through, double time) = 0;
   virtual bool surely_free(const CellIndex& cell) const = 0;

@@ -44,7 +44,7 @@ class Sector {
 
 }  // namespace
 
-void SensorModel::draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2& from, double axis, double shrink, const std::function<double(const CellIndex&)>& probability, Window& window) const {
+void SensorModel::draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2& from, double axis, double shrink, const Odds& odds, Window& window) const {
   const auto echoes = scan.echoes_of(beam);
   const double scale = shrink / resolution_, spread = std::max(0.5, sigma(scan) / resolution_);
   const double echo = echoes.empty() ? INFINITY : echoes.front().range * scale;
@@ -54,9 +54,10 @@ void SensorModel::draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2
   const double half = 0.5 * scan.azimuth_opening / parts;
   struct Candidate {
     std::int64_t column, row;
-    double odds, probability;
+    double likelihood, odds;
   };
   std::vector<Candidate> arc;
+  double all = 0.0;
   const CellIndex corner = window.corner();
   const Code free = code_of(unseen_);
   for (int part = 0; part < parts; ++part) {
@@ -64,27 +65,27 @@ void SensorModel::draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2
     const auto low = static_cast<std::int64_t>(std::floor(from.y - reach)), high = static_cast<std::int64_t>(std::floor(from.y + reach));
     for (std::int64_t row = low; row <= high; ++row) {
       const double y = static_cast<double>(row) + 0.5;
-      const Span all = sector.row(y, reach), inner = clear > 0.0 ? sector.row(y, clear) : Span{};
+      const Span whole = sector.row(y, reach), inner = clear > 0.0 ? sector.row(y, clear) : Span{};
       Code* const codes = window.at(0, row);
       for (std::int64_t x = inner.first; x < inner.past; ++x) codes[x] = std::max(codes[x], free);
       if (echoes.empty()) continue;
-      for (std::int64_t x = all.first; x < all.past; ++x) {
+      for (std::int64_t x = whole.first; x < whole.past; ++x) {
         if (!inner.empty() && x == inner.first) x = inner.past;
-        if (x >= all.past) break;
+        if (x >= whole.past) break;
         const double off = (glm::distance(glm::dvec2(static_cast<double>(x) + 0.5, y), from) - echo) / spread;
         if (std::abs(off) > 2.0) continue;
-        const double p = probability({corner.column + x, corner.row + row});
-        arc.push_back({x, row, p / (1.0 - p) * std::exp(-0.5 * off * off), p});
+        const double before = odds({corner.column + x, corner.row + row});
+        arc.push_back({x, row, before * bell(off), before});
+        all += arc.back().likelihood;
       }
     }
   }
-  double all_odds = 0.0;
-  for (const Candidate& c : arc) all_odds += c.odds;
-  const double most = hit_;
+  // A cell that is the one with a probability w, and else what it was: its odds rise by a factor of 1 + w / (p (1 - w)) with p = odds / (1 + odds). Most are too unlikely to be it for that to make a difference.
+  const double least = 0.5 / evidence_per_nat;
   for (const Candidate& c : arc) {
-    const double is_it = c.odds / all_odds, after = is_it + (1.0 - is_it) * c.probability;
-    const double evidence = evidence_per_nat * (std::log(after / std::max(1e-12, 1.0 - after)) - std::log(c.probability / (1.0 - c.probability)));
-    const int whole = static_cast<int>(std::lround(std::min(evidence, most)));
+    const double is_it = c.likelihood / all, rise = is_it * (1.0 + c.odds) / (c.odds * std::max(1e-12, 1.0 - is_it));
+    if (rise < least) continue;
+    const int whole = static_cast<int>(std::lround(std::min(evidence_per_nat * std::log1p(rise), static_cast<double>(hit_))));
     if (whole > 0) {
       Code& code = *window.at(c.column, c.row);
       code = std::max(code, code_of(whole));

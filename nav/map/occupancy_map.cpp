@@ -64,14 +64,14 @@ void OccupancyMap::integrate(const Scan& scan, const Pose& vehicle) {
     if (part) reach = std::max(reach, model_->reach(*part));
   const CellIndex centre = cell_at(glm::dvec2(sensor.position));
   const auto cells = static_cast<std::int64_t>(std::ceil(reach / spec_.resolution_m)) + 2;
-  const auto probability = [this](const CellIndex& cell) { return cells_->view(cell).probability; };
+  const SensorModel::Odds odds = [this](const CellIndex& cell) { return cells_->odds(cell); };
   if (views.fresh) {
     window_->place(centre, cells);
-    model_->draw(*views.fresh, sensor, probability, *window_);
+    model_->draw(*views.fresh, sensor, odds, *window_);
   }
   if (views.repeated) {
     again_->place(centre, cells);
-    model_->draw(*views.repeated, sensor, probability, *again_);
+    model_->draw(*views.repeated, sensor, odds, *again_);
     if (views.fresh) again_->take_from(*window_);
     cells_updated_ += cells_->take(*again_, true, scan.time);
   }

@@ -11,6 +11,9 @@
 
 namespace thicket {
 
+/// exp(-x^2 / 2) for |x| <= 2, from a table: to 1e-4.
+double bell(double x);
+
 /// Draws scans into a window.
 ///
 /// A thin beam: free before its first echo, sensed through between the edges of matter, occupied at each echo and half a cell behind a face, nothing behind its end. Where its ranges are less sure than half a cell, each cell
@@ -21,12 +24,14 @@ namespace thicket {
 /// Each cell there is as likely to be it as it was occupied before, times the normal error (Elfes 1987, in the form of Konolige 1997): cells known free stay so, and what is left of the arc gets all.
 class SensorModel {
  public:
+  using Odds = std::function<double(const CellIndex&)>;
+
   explicit SensorModel(const MapSpec& spec);
 
   /// How far the scan has anything to say, m, sigma included.
   double reach(const Scan& scan) const;
-  /// `sensor`: its pose in the world. `probability`: of matter in a cell as known before the scan. The window lies around the sensor and holds `reach`.
-  void draw(const Scan& scan, const Pose& sensor, const std::function<double(const CellIndex&)>& probability, Window& window) const;
+  /// `sensor`: its pose in the world. `odds`: p / (1 - p) of matter in a cell as known before the scan. The window lies around the sensor and holds `reach`.
+  void draw(const Scan& scan, const Pose& sensor, const Odds& odds, Window& window) const;
 
   /// Standard deviation of a scan's ranges, m.
   double sigma(const Scan& scan) const;
@@ -34,8 +39,8 @@ class SensorModel {
   int miss() const { return miss_; }
 
  private:
-  void draw_beams(const Scan& scan, const Pose& sensor, const std::function<double(const CellIndex&)>& probability, Window& window) const;
-  void draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2& from, double axis, double shrink, const std::function<double(const CellIndex&)>& probability, Window& window) const;
+  void draw_beams(const Scan& scan, const Pose& sensor, const Odds& odds, Window& window) const;
+  void draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2& from, double axis, double shrink, const Odds& odds, Window& window) const;
 
   double resolution_, sigma_;
   double probability_hit_;
