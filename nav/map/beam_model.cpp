@@ -135,8 +135,7 @@ double SensorModel::reach(const Scan& scan) const {
 
 void SensorModel::draw(const Scan& scan, const Pose& sensor, const Odds& odds, Window& window) const {
   if (scan.azimuth_opening <= 0.0) return draw_beams(scan, sensor, odds, window);
-  const CellIndex corner = window.corner();
-  const glm::dvec2 from = glm::dvec2(sensor.position) / resolution_ - glm::dvec2(static_cast<double>(corner.column), static_cast<double>(corner.row));
+  const glm::dvec2 from = window.place_of(glm::dvec2(sensor.position), resolution_);
   for (const Beam& beam : scan.beams) {
     const glm::dvec2 along(sensor.orientation * beam.direction);
     const double shrink = glm::length(along);  // of a beam that climbs or falls, its plan
@@ -146,24 +145,22 @@ void SensorModel::draw(const Scan& scan, const Pose& sensor, const Odds& odds, W
 
 void SensorModel::draw_beams(const Scan& scan, const Pose& sensor, const Odds& odds, Window& window) const {
   const CellIndex corner = window.corner();
-  const glm::dvec2 from = glm::dvec2(sensor.position) / resolution_ - glm::dvec2(static_cast<double>(corner.column), static_cast<double>(corner.row));
+  const glm::dvec2 from = window.place_of(glm::dvec2(sensor.position), resolution_);
   const double spread = sigma(scan) / resolution_;
   const bool sure = spread < 0.5;  // then an echo is in its cell
   const double about = 2.0 * spread;  // an echo that is not sure comes from within this
   const double missed_factor = std::exp(miss_ / evidence_per_nat);
   std::vector<Candidate> candidates;
   const Code free = code_of(miss_);
-  const auto line_of = [&](const Beam& beam, double& scale) {
-    const glm::dvec2 along(sensor.orientation * beam.direction);
-    const double shrink = glm::length(along);
-    scale = shrink / resolution_;
-    return Line{from, shrink > 1e-9 ? along / shrink : glm::dvec2(0.0)};
+  const auto for_beams = [&](auto&& use) {
+    for (const Beam& beam : scan.beams) {
+      const glm::dvec2 along(sensor.orientation * beam.direction);
+      const double shrink = glm::length(along);  // of a beam that climbs or falls, its plan
+      if (shrink > 1e-9) use(beam, Line{from, along / shrink}, shrink / resolution_);
+    }
   };
   // First what is free, which is the least that can be said; then whatever counts more.
-  for (const Beam& beam : scan.beams) {
-    double scale;
-    const Line line = line_of(beam, scale);
-    if (line.along == glm::dvec2(0.0)) continue;
+  for_beams([&](const Beam& beam, const Line& line, double scale) {
     double begin = 0.0;
     bool inside = beam.starts_inside;
     for (const Echo& echo : scan.echoes_of(beam)) {
@@ -173,11 +170,8 @@ void SensorModel::draw_beams(const Scan& scan, const Pose& sensor, const Odds& o
       inside = inside_after(echo);
     }
     if (!inside) fill(window, line, begin, beam.sensed_range * scale - (beam.end == BeamEnd::stopped ? on_border : 0.0), free);
-  }
-  for (const Beam& beam : scan.beams) {
-    double scale;
-    const Line line = line_of(beam, scale);
-    if (line.along == glm::dvec2(0.0)) continue;
+  });
+  for_beams([&](const Beam& beam, const Line& line, double scale) {
     double begin = 0.0;
     bool inside = beam.starts_inside;
     const auto through = [&](double end) {
@@ -222,7 +216,7 @@ void SensorModel::draw_beams(const Scan& scan, const Pose& sensor, const Odds& o
       }
     }
     if (inside) through(beam.sensed_range * scale - (beam.end == BeamEnd::stopped ? on_border : 0.0));
-  }
+  });
 }
 
 }  // namespace thicket

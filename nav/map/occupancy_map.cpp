@@ -7,6 +7,7 @@
 
 #include "cells.hpp"
 #include "sensor_model.hpp"
+#include "thicket/base/probability_file.hpp"
 #include "view_memory.hpp"
 
 namespace thicket {
@@ -104,15 +105,7 @@ ProbabilityGrid OccupancyMap::to_probabilities() const {
   return grid;
 }
 
-GridMap OccupancyMap::to_grid() const {
-  const ProbabilityGrid all = to_probabilities();
-  GridMap grid{all.width, all.height, all.resolution, all.origin, 0.0, std::vector<CellState>(all.probability.size(), CellState::unknown)};
-  for (std::size_t i = 0; i < grid.cells.size(); ++i) {
-    if (all.probability[i] > 0.65f) grid.cells[i] = CellState::occupied;
-    if (all.probability[i] < 0.196f && !all.sensed_through(i)) grid.cells[i] = CellState::free;
-  }
-  return grid;
-}
+GridMap OccupancyMap::to_grid() const { return judged(to_probabilities()); }
 
 Result<Done> OccupancyMap::start_from(const ProbabilityGrid& grid) {
   if (std::abs(grid.resolution - spec_.resolution_m) > 1e-9 * spec_.resolution_m)

@@ -68,11 +68,10 @@ Quadtree<Cell>::Quadtree(const Tile<Cell>& tile, const Errors& errors, int toler
       if (one && square.low != square.high) {
         const int worst = error + (static_cast<int>(square.high) - square.low + 1) / 2;
         one = worst <= tolerance;
-        error = static_cast<std::uint8_t>(std::min(worst, 255));
+        error = static_cast<std::uint8_t>(std::min(worst, most_error));
       }
       square.one = one;
-      // What is not merged in the end must not carry the error of what was tried: only squares that are leaves use it.
-      square.error = error;
+      square.error = error;  // of a square that is no leaf, nobody asks for it
       levels[level].push_back(square);
     }
   }

@@ -18,8 +18,10 @@ template <class Cell>
 class Quadtree {
  public:
   using Errors = std::array<std::uint8_t, tile_cells>;
+  static constexpr int most_error = 255;  ///< no tolerance may be larger: of cells of 16 bits a sixteenth of a nat
 
   Quadtree() = default;
+  /// `tolerance`: in units of the cells, 0 ... `most_error`.
   Quadtree(const Tile<Cell>& tile, const Errors& errors, int tolerance);
 
   void expand(Tile<Cell>& tile, Errors* errors) const;

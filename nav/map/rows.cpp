@@ -56,22 +56,18 @@ THICKET_WIDEST void add_16(std::int16_t* values, const Code* codes, int low, int
 THICKET_WIDEST void limit_8(std::int8_t* values, const Code* codes, int low, int high) { limit_row(values, codes, low, high); }
 THICKET_WIDEST void limit_16(std::int16_t* values, const Code* codes, int low, int high) { limit_row(values, codes, low, high); }
 
+template <class Cell, class Change>
+std::uint64_t take(Cell* values, Code* codes, const Rule& rule, Change* change) {
+  const std::uint64_t touched = touched_of(codes);
+  if (touched == 0) return 0;
+  change(values, codes, rule.low, rule.high);
+  std::memset(codes, 0, tile_size);
+  return touched;
+}
+
 }  // namespace
 
-std::uint64_t take_row(std::int8_t* values, Code* codes, const Rule& rule) {
-  const std::uint64_t touched = touched_of(codes);
-  if (touched == 0) return 0;
-  (rule.limit ? limit_8 : add_8)(values, codes, rule.low, rule.high);
-  std::memset(codes, 0, tile_size);
-  return touched;
-}
-
-std::uint64_t take_row(std::int16_t* values, Code* codes, const Rule& rule) {
-  const std::uint64_t touched = touched_of(codes);
-  if (touched == 0) return 0;
-  (rule.limit ? limit_16 : add_16)(values, codes, rule.low, rule.high);
-  std::memset(codes, 0, tile_size);
-  return touched;
-}
+std::uint64_t take_row(std::int8_t* values, Code* codes, const Rule& rule) { return take(values, codes, rule, rule.limit ? limit_8 : add_8); }
+std::uint64_t take_row(std::int16_t* values, Code* codes, const Rule& rule) { return take(values, codes, rule, rule.limit ? limit_16 : add_16); }
 
 }  // namespace thicket

@@ -104,7 +104,7 @@ class DenseStore final : public Store<Cell> {
 template <class Cell>
 class QuadtreeStore final : public Store<Cell> {
  public:
-  explicit QuadtreeStore(int tolerance) : tolerance_(tolerance) {}
+  explicit QuadtreeStore(int tolerance) : tolerance_(std::min(tolerance, Quadtree<Cell>::most_error)) {}
   std::unique_ptr<Store<Cell>> clone() const override { return std::make_unique<QuadtreeStore>(*this); }
 
   Tile<Cell>& open(const CellIndex& index) override {

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "tile.hpp"
 
 namespace thicket {
@@ -40,6 +42,8 @@ class Window {
   const CellIndex& low() const { return low_; }
   /// The lower-left corner, in cells.
   CellIndex corner() const { return {low_.column * tile_size, low_.row * tile_size}; }
+  /// A point of the world, m, in cells from that corner.
+  glm::dvec2 place_of(const glm::dvec2& point, double resolution) const { return point / resolution - glm::dvec2(static_cast<double>(corner().column), static_cast<double>(corner().row)); }
   Code* at(std::int64_t column, std::int64_t row) { return codes_.data() + row * stride() + column; }
 
   /// Cells sensed through, in a plane of its own that exists from the first such cell on.

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "or_exit.hpp"
 #include "thicket/base/files.hpp"
 #include "thicket/base/pose.hpp"
 #include "thicket/sim/simulation.hpp"
@@ -218,13 +219,6 @@ inline void scans(benchmark::State& state, const Scene& scene, const SensorSpec&
   per_item(state, item, items);
 }
 
-/// What was built or read, or the end of the program with the message of what went wrong.
-template <class T>
-T or_exit(Result<T> result) {
-  if (result) return std::move(*result);
-  std::fprintf(stderr, "bench: %s\n", result.error().message.c_str());
-  std::exit(1);
-}
 inline Scene shipped_scene(const char* world) { return or_exit(Scene::build(or_exit(read_world(find_input(world))))); }
 inline Mission shipped_mission(const char* mission, const std::vector<Override>& changes = {}) { return or_exit(read_mission(find_input(mission), changes)); }
 

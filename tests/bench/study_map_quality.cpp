@@ -56,7 +56,7 @@ std::vector<Entry> maps_of(const Instrument& instrument, double resolution) {
 
 void study_quality(const QualityOptions& o) {
   const Hall hall = map_work::hall();
-  const TruthGrid centre = made(hall.truth(o.resolution, Convention::cell_centre)), overlap = made(hall.truth(o.resolution, Convention::any_overlap));
+  const TruthGrid centre = or_exit(hall.truth(o.resolution, Convention::cell_centre)), overlap = or_exit(hall.truth(o.resolution, Convention::any_overlap));
   std::vector<std::vector<Row>> rows(2);
   for (const Instrument& instrument : {Instrument::radar4x58(), Instrument::lidar360(), Instrument::lidar1440(), Instrument::lobe2018()}) {
     for (const Entry& entry : maps_of(instrument, o.resolution)) {
@@ -65,7 +65,7 @@ void study_quality(const QualityOptions& o) {
           rows[any].push_back({instrument.name, entry.mapper, "-", "-", "-", "-", "-", "-", "-"});
           continue;
         }
-        const MapScore s = made(score_map(entry.map, any ? overlap : centre, o.tolerance));
+        const MapScore s = or_exit(score_map(entry.map, any ? overlap : centre, o.tolerance));
         rows[any].push_back({instrument.name, entry.mapper, fixed(s.coverage, 3), fixed(s.f1, 3), fixed(s.precision, 3), fixed(s.strict_precision, 3), fixed(s.claimed_nll, 3), fixed(s.claimed_mean_p, 3), fixed(s.edge_error_m, 3)});
       }
     }

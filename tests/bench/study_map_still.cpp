@@ -108,7 +108,7 @@ struct Watch {
 void stand(const Instrument& instrument, bool identical, const StillOptions& o, std::vector<Row>& rows, std::vector<Row>& changes) {
   const Raster raster(o.resolution);
   Source source(instrument, {true, identical, o.clutter});
-  const TruthGrid truth = made(source.hall.truth(o.resolution, Convention::any_overlap));
+  const TruthGrid truth = or_exit(source.hall.truth(o.resolution, Convention::any_overlap));
   const auto far = far_cells(source.hall, raster, instrument.sigma);
   const std::vector<Mapper> mappers = mappers_of(instrument, o.resolution);
   std::vector<Watch> watches(mappers.size(), {std::vector<std::uint8_t>(raster.count()), std::vector<std::uint8_t>(raster.count())});
@@ -131,7 +131,7 @@ void stand(const Instrument& instrument, bool identical, const StillOptions& o, 
         ever += watches[m].ever[i];
       }
       if (!tell) continue;
-      const MapScore s = made(score_map(map, truth));
+      const MapScore s = or_exit(score_map(map, truth));
       rows.push_back({instrument.name, noise, mappers[m].name, std::to_string(scan), std::to_string(now), std::to_string(ever), fixed(s.claimed_nll, 3), fixed(s.claimed_mean_p, 3), fixed(s.nll, 4), fixed(s.precision, 3)});
     }
     if (tell) milestone *= 10;

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
-#include "thicket/base/result.hpp"
+#include "or_exit.hpp"
 
 namespace thicket::study {
 
@@ -28,13 +26,5 @@ struct StillOptions {
 };
 /// Standing still for long, with noise that is fresh or always the same; and whether a change is still seen after it.
 void study_still(const StillOptions& options);
-
-/// What was made, or the end of the program with the message of what went wrong.
-template <class T>
-T made(Result<T> result) {
-  if (result) return std::move(*result);
-  std::fprintf(stderr, "study_mapping: %s\n", result.error().message.c_str());
-  std::exit(1);
-}
 
 }  // namespace thicket::study

@@ -1,14 +1,13 @@
 // What the studies of navigation share: which problems, how they are run, and where the results go.
 #pragma once
 
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "or_exit.hpp"
 #include "study_tables.hpp"
 #include "thicket/sim/reachability.hpp"
 
@@ -31,14 +30,6 @@ void study_rooms(const Options& options);
 void study_drift(const Options& options);
 void study_trade(const Options& options);
 void study_cost(const Options& options);
-
-/// What was made or read, or the end of the program with the message of what went wrong.
-template <class T>
-T or_exit(Result<T> result) {
-  if (result) return std::move(*result);
-  std::fprintf(stderr, "study_navigation: %s\n", result.error().message.c_str());
-  std::exit(1);
-}
 
 /// A generated problem with what its world says of it.
 struct Judged {

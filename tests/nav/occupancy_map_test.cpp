@@ -277,17 +277,17 @@ double log_odds(double probability) { return std::log(probability / (1.0 - proba
 
 TEST_CASE("dense and tiles agree cell for cell, the quadtree within its tolerance, 8 bits with 16 to their rounding") {
   OccupancyMap tiles(kept_in("tiles")), dense(kept_in("dense")), sixteen(kept_in("tiles", 16));
-  MapSpec exact_spec = kept_in("quadtree"), loose_spec = exact_spec;
+  MapSpec exact_spec = kept_in("quadtree"), loose_spec = exact_spec, loose_sixteen_spec = kept_in("quadtree", 16);
   exact_spec.tolerance = 0.0;
-  loose_spec.tolerance = 0.05;
-  OccupancyMap exact(exact_spec), loose(loose_spec);
-  for (OccupancyMap* map : {&tiles, &dense, &sixteen, &exact, &loose}) wander(*map, 60, 3);
+  loose_spec.tolerance = loose_sixteen_spec.tolerance = 0.05;
+  OccupancyMap exact(exact_spec), loose(loose_spec), loose_sixteen(loose_sixteen_spec);
+  for (OccupancyMap* map : {&tiles, &dense, &sixteen, &exact, &loose, &loose_sixteen}) wander(*map, 60, 3);
   const auto extent = tiles.extent();
   REQUIRE(extent);
   CHECK(dense.extent() == extent);
   CHECK(tiles.known_cells() == dense.known_cells());
   CHECK(tiles.known_cells() > 10000);
-  double worst = 0.0;
+  double worst = 0.0, worst_sixteen = 0.0;
   std::size_t differ = 0, off = 0;
   for (std::int64_t row = extent->first.row; row < extent->second.row; ++row)
     for (std::int64_t column = extent->first.column; column < extent->second.column; ++column) {
@@ -296,12 +296,14 @@ TEST_CASE("dense and tiles agree cell for cell, the quadtree within its toleranc
       differ += a.known != c.known || a.probability != c.probability || a.sensed_through != c.sensed_through;
       differ += a.known != d.known || a.sensed_through != d.sensed_through;
       if (a.known) worst = std::max(worst, std::abs(log_odds(a.probability) - log_odds(d.probability)));
+      if (e.known) worst_sixteen = std::max(worst_sixteen, std::abs(log_odds(e.probability) - log_odds(loose_sixteen.view({column, row}).probability)));
       off += a.known && std::abs(log_odds(a.probability) - log_odds(e.probability)) > 1.01 / 32.0;
     }
   CHECK(differ == 0);
   CHECK(off == 0);
   CHECK(worst > 0.0);  // something was merged
   CHECK(worst <= log_odds(0.55) + 0.5 / 32.0);
+  CHECK(worst_sixteen <= 256.0 / 4096.0);  // what a byte holds of the units of 16 bits
   CHECK(exact.memory_bytes() < dense.memory_bytes());
   CHECK(loose.memory_bytes() < dense.memory_bytes());
 }

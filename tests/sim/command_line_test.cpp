@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include "outside_data.hpp"
 #include "program_call.hpp"
 #include "thicket/base/files.hpp"
@@ -13,8 +11,6 @@
 
 namespace thicket {
 namespace {
-
-nlohmann::json json_of(const std::filesystem::path& file) { return nlohmann::json::parse(*read_text_file(file)); }
 
 const std::vector<std::string> outputs = {"map.pgm", "map.png", "map.yaml", "mission.toml", "path.png", "result.json", "timing.json", "trajectory.csv", "trajectory.tum"};
 

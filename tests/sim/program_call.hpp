@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "temporary_folder.hpp"
 #include "thicket/base/files.hpp"
 
@@ -25,5 +27,8 @@ inline Answer call(const TemporaryFolder& folder, const std::string& arguments) 
 }
 
 inline bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// A file that a run has written.
+inline nlohmann::json json_of(const std::filesystem::path& file) { return nlohmann::json::parse(*read_text_file(file)); }
 
 }  // namespace thicket

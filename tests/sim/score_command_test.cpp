@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include "program_call.hpp"
 #include "thicket/base/files.hpp"
 #include "thicket/sim/map_score.hpp"
@@ -13,8 +11,6 @@
 
 namespace thicket {
 namespace {
-
-nlohmann::json json_of(const std::filesystem::path& file) { return nlohmann::json::parse(*read_text_file(file)); }
 
 void replace(const TemporaryFolder& folder, const std::string& file, const std::string& from, const std::string& to) {
   std::string text = *read_text_file(folder.path() / file);
