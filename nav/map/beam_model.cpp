@@ -1,4 +1,5 @@
-#include <array>
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -87,8 +88,9 @@ void raise(Code& code, Code to) { code = std::max(code, to); }
 
 /// Where along a beam of which the range is not sure to the cell the matter is.
 struct Candidate {
-  std::int64_t column, row;
-  double likelihood, odds;
+  Code* code;
+  double likelihood;
+  Level level;
 };
 
 // Matter lies behind its face: as deep as this, in cells, a face tells of it. (Else cells of which the middle is matter would be left out wherever the face is in the cell before.)
@@ -105,16 +107,21 @@ bool inside_after(const Echo& echo) { return echo.edge == Edge::front || echo.ed
 
 }  // namespace
 
-double bell(double x) {
-  constexpr std::size_t steps = 512;
+int evidence_of(double ratio) {
+  // By the first bits of the number: 16 octaves about 1, in 256 parts each.
+  constexpr int part_bits = 8, octaves = 16, shift = 23 - part_bits;
+  constexpr std::int32_t first = (127 - octaves / 2) << part_bits, count = octaves << part_bits;
   static const auto table = [] {
-    std::array<double, steps + 2> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::exp(-0.5 * std::pow(2.0 * static_cast<double>(i) / steps, 2));
+    std::array<std::int8_t, static_cast<std::size_t>(count)> values{};
+    for (int i = 0; i < count; ++i) {
+      const int octave = (i >> part_bits) - octaves / 2, part = i & ((1 << part_bits) - 1);
+      const double nats = octave * std::log(2.0) + std::log1p((part + 0.5) / (1 << part_bits));
+      values[static_cast<std::size_t>(i)] = static_cast<std::int8_t>(std::clamp(std::lround(evidence_per_nat * nats), -static_cast<long>(most_evidence), static_cast<long>(most_evidence)));
+    }
     return values;
   }();
-  const double at = std::min(std::abs(x), 2.0) * (steps / 2.0), floor = std::floor(at);
-  const auto i = static_cast<std::size_t>(floor);
-  return table[i] + (at - floor) * (table[i + 1] - table[i]);
+  const auto bits = std::bit_cast<std::int32_t>(static_cast<float>(ratio));
+  return table[static_cast<std::size_t>(std::clamp((bits >> shift) - first, 0, count - 1))];
 }
 
 SensorModel::SensorModel(const MapSpec& spec)
@@ -123,7 +130,8 @@ SensorModel::SensorModel(const MapSpec& spec)
       probability_hit_(spec.probability_hit),
       hit_(static_cast<int>(std::lround(evidence_per_nat * std::log(spec.probability_hit / (1.0 - spec.probability_hit))))),
       miss_(static_cast<int>(std::lround(evidence_per_nat * std::log(spec.probability_miss / (1.0 - spec.probability_miss))))),
-      unseen_(static_cast<int>(std::lround(evidence_per_nat * std::log(1.0 - spec.probability_detection)))) {}
+      unseen_(static_cast<int>(std::lround(evidence_per_nat * std::log(1.0 - spec.probability_detection)))),
+      probability_missed_(for_levels([this](double log_odds) { return 1.0 / (1.0 + std::exp(-(log_odds + miss_ / evidence_per_nat))); })) {}
 
 double SensorModel::sigma(const Scan& scan) const { return sigma_ >= 0.0 ? sigma_ : scan.range_noise; }
 
@@ -133,23 +141,21 @@ double SensorModel::reach(const Scan& scan) const {
   return reach + 3.0 * sigma(scan);
 }
 
-void SensorModel::draw(const Scan& scan, const Pose& sensor, const Odds& odds, Window& window) const {
-  if (scan.azimuth_opening <= 0.0) return draw_beams(scan, sensor, odds, window);
+void SensorModel::draw(const Scan& scan, const Pose& sensor, Prior& prior, Window& window) const {
+  if (scan.azimuth_opening <= 0.0) return draw_beams(scan, sensor, prior, window);
   const glm::dvec2 from = window.place_of(glm::dvec2(sensor.position), resolution_);
   for (const Beam& beam : scan.beams) {
     const glm::dvec2 along(sensor.orientation * beam.direction);
     const double shrink = glm::length(along);  // of a beam that climbs or falls, its plan
-    if (shrink > 1e-9) draw_lobe(scan, beam, from, std::atan2(along.y, along.x), shrink, odds, window);
+    if (shrink > 1e-9) draw_lobe(scan, beam, from, std::atan2(along.y, along.x), shrink, prior, window);
   }
 }
 
-void SensorModel::draw_beams(const Scan& scan, const Pose& sensor, const Odds& odds, Window& window) const {
-  const CellIndex corner = window.corner();
+void SensorModel::draw_beams(const Scan& scan, const Pose& sensor, Prior& prior, Window& window) const {
   const glm::dvec2 from = window.place_of(glm::dvec2(sensor.position), resolution_);
   const double spread = sigma(scan) / resolution_;
   const bool sure = spread < 0.5;  // then an echo is in its cell
   const double about = 2.0 * spread;  // an echo that is not sure comes from within this
-  const double missed_factor = std::exp(miss_ / evidence_per_nat);
   std::vector<Candidate> candidates;
   const Code free = code_of(miss_);
   const auto for_beams = [&](auto&& use) {
@@ -199,20 +205,21 @@ void SensorModel::draw_beams(const Scan& scan, const Pose& sensor, const Odds& o
       candidates.clear();
       double all = 0.0;
       walk(line, std::max(0.0, at - about), at + about, [&](std::int64_t column, std::int64_t row, double enters, double leaves) {
-        const double before = odds({corner.column + column, corner.row + row}), off = (0.5 * (enters + leaves) - at) / spread;
-        candidates.push_back({column, row, (leaves - enters) * before * bell(off), before});
+        const double off = (0.5 * (enters + leaves) - at) / spread;
+        const Level level = *prior.at(column, row);
+        candidates.push_back({window.at(column, row), (leaves - enters) * odds_of_level[level] * bell(off), level});
         all += candidates.back().likelihood;
       });
       // If the matter is farther on, the beam went through this cell; if it is nearer, nothing is said of it.
+      const double share = 1.0 / all;
       double nearer = 0.0;
       for (const Candidate& c : candidates) {
-        const double here = c.likelihood / all, farther = std::max(0.0, 1.0 - here - nearer), missed = c.odds * missed_factor;
-        const double after = here + farther * missed / (1.0 + missed) + nearer * c.odds / (1.0 + c.odds);
+        const double here = c.likelihood * share, farther = std::max(0.0, 1.0 - here - nearer);
+        const double after = here + farther * probability_missed_[c.level] + nearer * probability_of_level[c.level];
+        const int evidence = std::clamp(evidence_of(after / (std::max(1e-12, 1.0 - after) * odds_of_level[c.level])), miss_, hit_);
+        if (evidence < 0 || evidence >= least_told) raise(*c.code, code_of(std::min(evidence, most_told)));
+        else if (nearer < 0.5) raise(*c.code, code_of(0));
         nearer += here;
-        const double evidence = evidence_per_nat * std::log(after / (std::max(1e-12, 1.0 - after) * c.odds));
-        const int whole = static_cast<int>(std::lround(std::clamp(evidence, static_cast<double>(miss_), static_cast<double>(hit_))));
-        if (whole < 0 || whole >= least_told) raise(*window.at(c.column, c.row), code_of(std::min(whole, most_told)));
-        else if (nearer - here < 0.5) raise(*window.at(c.column, c.row), code_of(0));
       }
     }
     if (inside) through(beam.sensed_range * scale - (beam.end == BeamEnd::stopped ? on_border : 0.0));

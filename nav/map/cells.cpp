@@ -19,9 +19,8 @@ class CellsOf final : public Cells {
  public:
   explicit CellsOf(const MapSpec& spec)
       : store_(make_store<Cell>(spec.store, to_units<Cell>(0.5 + spec.tolerance))), low_(to_units<Cell>(spec.clamp_low)), high_(to_units<Cell>(spec.clamp_high)) {
-    for (std::size_t i = 0; i < odds_.size(); ++i) odds_[i] = std::exp(static_cast<std::int8_t>(i) / Units<std::int8_t>::per_nat);
   }
-  CellsOf(const CellsOf& other) : store_(other.store_->clone()), low_(other.low_), high_(other.high_), odds_(other.odds_) {}
+  CellsOf(const CellsOf& other) : store_(other.store_->clone()), low_(other.low_), high_(other.high_) {}
   std::unique_ptr<Cells> clone() const override { return std::make_unique<CellsOf>(*this); }
 
   std::size_t take(Window& window, bool limit, double time) override {
@@ -37,12 +36,19 @@ class CellsOf final : public Cells {
     return tile ? view_of(*tile, place_in_tile(cell)) : CellView{};
   }
 
-  double odds(const CellIndex& cell) const override {
-    const Tile<Cell>* tile = find(tile_of(cell));
-    const Cell value = tile ? tile->values[place_in_tile(cell)] : unknown_cell<Cell>;
-    if (value == unknown_cell<Cell>) return 1.0;
-    if constexpr (sizeof(Cell) == 1) return odds_[static_cast<std::uint8_t>(value)];
-    return std::exp(value / Units<Cell>::per_nat);
+  const std::int8_t* levels(const CellIndex& index, std::int8_t* scratch) const override {
+    const Tile<Cell>* tile = store_->find(index, scratch_);
+    cached_ = nullptr;
+    if (!tile) return nullptr;
+    if constexpr (sizeof(Cell) == 1) {
+      if (tile != &scratch_) return tile->values.data();
+    }
+    constexpr int scale = static_cast<int>(Units<Cell>::per_nat / evidence_per_nat);
+    for (std::size_t place = 0; place < tile_cells; ++place) {
+      const int value = tile->values[place];
+      scratch[place] = static_cast<std::int8_t>(value == unknown_cell<Cell> ? 0 : (value + (value < 0 ? -scale : scale) / 2) / scale);
+    }
+    return scratch;
   }
 
   void put(const CellIndex& cell, double probability, bool through, double time) override {
@@ -117,47 +123,43 @@ class CellsOf final : public Cells {
     const CellIndex index{window.low().column + column, window.low().row + row};
     Tile<Cell>* tile = nullptr;
     std::size_t cells = 0;
-    for (std::int64_t y = 0; y < tile_size; ++y) {
-      Code* codes = window.at(column * tile_size, row * tile_size + y);
+    for (int block = 0; block < blocks_per_side; ++block) {
+      const std::int64_t first = row * tile_size + block * block_size;
+      Code* const codes = window.at(column * tile_size, first);
+      if (!any_code(codes, window.stride())) continue;
       if (!tile) {
-        if (!any(codes)) continue;
         tile = &store_->open(index);
         cached_ = nullptr;
       }
-      Cell* values = tile->values.data() + y * tile_size;
-      // Sensed through is what a beam passed inside of matter, unless another met a surface there.
-      std::uint64_t passed = 0;
-      if (std::uint8_t* through = window.through_at(column * tile_size, row * tile_size + y)) {
-        for (int i = 0; i < tile_size; ++i) passed |= std::uint64_t{through[i] != 0 && codes[i] <= no_evidence} << i;
-        std::fill(through, through + tile_size, std::uint8_t{0});
-      }
-      const std::uint64_t touched = take_row(values, codes, rule);
-      if (touched == 0) continue;
-      cells += static_cast<std::size_t>(__builtin_popcountll(touched));
-      if (tile->through || passed != 0) {
-        if (!tile->through) tile->through = std::make_unique<typename Tile<Cell>::Bits>(typename Tile<Cell>::Bits{});
-        auto& bits = (*tile->through)[static_cast<std::size_t>(y)];
-        bits = (bits & ~touched) | passed;
-      }
-      for (int block = 0; block < blocks_per_side; ++block)
-        if ((touched >> (block << block_bits) & 0xff) != 0) tile->seen[static_cast<std::size_t>((y >> block_bits) * blocks_per_side + block)] = static_cast<float>(time);
+      if (tile->through || window.any_through()) take_through(window, column * tile_size, first, *tile, block * block_size);
+      const Taken taken = take_rows(tile->values.data() + block * block_size * tile_size, codes, window.stride(), rule);
+      cells += static_cast<std::size_t>(taken.cells);
+      for (std::size_t b = 0; b < blocks_per_side; ++b)
+        if (taken.in_block[b]) tile->seen[static_cast<std::size_t>(block * blocks_per_side) + b] = static_cast<float>(time);
     }
     if (tile) store_->close(index);
     return cells;
   }
-  static bool any(const Code* codes) {
-    std::uint64_t all = 0;
-    for (int i = 0; i < tile_size; i += 8) {
-      std::uint64_t eight;
-      __builtin_memcpy(&eight, codes + i, 8);
-      all |= eight;
+
+  /// Sensed through is what a beam passed inside of matter, unless another met a surface there.
+  static void take_through(Window& window, std::int64_t column, std::int64_t row, Tile<Cell>& tile, int row_of_tile) {
+    for (int y = 0; y < block_size; ++y) {
+      const Code* codes = window.at(column, row + y);
+      std::uint64_t passed = 0;
+      if (std::uint8_t* through = window.through_at(column, row + y)) {
+        for (int i = 0; i < tile_size; ++i) passed |= std::uint64_t{through[i] != 0 && codes[i] <= no_evidence} << i;
+        std::fill(through, through + tile_size, std::uint8_t{0});
+      }
+      const std::uint64_t touched = touched_of(codes);
+      if ((!tile.through && passed == 0) || touched == 0) continue;
+      if (!tile.through) tile.through = std::make_unique<typename Tile<Cell>::Bits>(typename Tile<Cell>::Bits{});
+      auto& bits = (*tile.through)[static_cast<std::size_t>(row_of_tile + y)];
+      bits = (bits & ~touched) | passed;
     }
-    return all != 0;
   }
 
   std::unique_ptr<Store<Cell>> store_;
   int low_, high_;
-  std::array<double, 256> odds_;  ///< of cells of 8 bits
   mutable Tile<Cell> scratch_;
   mutable const Tile<Cell>* cached_ = nullptr;
   mutable CellIndex cached_index_;

@@ -19,8 +19,8 @@ class Cells {
   /// Takes in a window and leaves it untouched. How many cells it told something of.
   virtual std::size_t take(Window& window, bool limit, double time) = 0;
   virtual CellView view(const CellIndex& cell) const = 0;
-  /// p / (1 - p) of matter; 1 where nothing is known.
-  virtual double odds(const CellIndex& cell) const = 0;
+  /// Log-odds of a tile's cells in 1/32 nat, row by row; `unknown_cell` may stand for 0. Null: nothing is known of it. `scratch`, of `tile_cells`, may hold them: valid until that or the map changes.
+  virtual const std::int8_t* levels(const CellIndex& tile, std::int8_t* scratch) const = 0;
   /// A cell as it is read from a file or an update; NaN: unknown.
   virtual void put(const CellIndex& cell, double probability, bool through, double time) = 0;
   virtual bool surely_free(const CellIndex& cell) const = 0;

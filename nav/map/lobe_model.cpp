@@ -44,7 +44,7 @@ class Sector {
 
 }  // namespace
 
-void SensorModel::draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2& from, double axis, double shrink, const Odds& odds, Window& window) const {
+void SensorModel::draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2& from, double axis, double shrink, Prior& prior, Window& window) const {
   const auto echoes = scan.echoes_of(beam);
   const double scale = shrink / resolution_, spread = std::max(0.5, sigma(scan) / resolution_);
   const double echo = echoes.empty() ? INFINITY : echoes.front().range * scale;
@@ -53,43 +53,54 @@ void SensorModel::draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2
   const int parts = std::max(1, static_cast<int>(std::ceil(scan.azimuth_opening / (0.5 * pi))));
   const double half = 0.5 * scan.azimuth_opening / parts;
   struct Candidate {
-    std::int64_t column, row;
-    double likelihood, odds;
+    Code* code;
+    float likelihood;
+    Level level;
   };
-  std::vector<Candidate> arc;
+  static thread_local std::vector<Candidate> arc;
+  arc.clear();
   double all = 0.0;
-  const CellIndex corner = window.corner();
   const Code free = code_of(unseen_);
+  const double per_spread = 1.0 / spread;
   for (int part = 0; part < parts; ++part) {
     const Sector sector(from, axis + half * (2 * part + 1 - parts), half);
     const auto low = static_cast<std::int64_t>(std::floor(from.y - reach)), high = static_cast<std::int64_t>(std::floor(from.y + reach));
     for (std::int64_t row = low; row <= high; ++row) {
       const double y = static_cast<double>(row) + 0.5;
-      const Span whole = sector.row(y, reach), inner = clear > 0.0 ? sector.row(y, clear) : Span{};
+      const Span whole = sector.row(y, reach);
+      if (whole.empty()) continue;
+      const Span inner = clear > 0.0 ? sector.row(y, clear) : Span{};
       Code* const codes = window.at(0, row);
       for (std::int64_t x = inner.first; x < inner.past; ++x) codes[x] = std::max(codes[x], free);
       if (echoes.empty()) continue;
-      for (std::int64_t x = whole.first; x < whole.past; ++x) {
-        if (!inner.empty() && x == inner.first) x = inner.past;
-        if (x >= whole.past) break;
-        const double off = (glm::distance(glm::dvec2(static_cast<double>(x) + 0.5, y), from) - echo) / spread;
-        if (std::abs(off) > 2.0) continue;
-        const double before = odds({corner.column + x, corner.row + row});
-        arc.push_back({x, row, before * bell(off), before});
-        all += arc.back().likelihood;
+      const double square = (y - from.y) * (y - from.y);
+      const auto add = [&](Span span) {
+        for (std::int64_t x = span.first; x < span.past;) {
+          // As far as the tile goes.
+          const std::int64_t past = std::min(span.past, (x | (tile_size - 1)) + 1);
+          for (const Level* level = prior.at(x, row); x < past; ++x, ++level) {
+            const double along = static_cast<double>(x) + 0.5 - from.x, off = (std::sqrt(along * along + square) - echo) * per_spread;
+            if (std::abs(off) > 2.0) continue;
+            const double likelihood = odds_of_level[*level] * bell(off);
+            arc.push_back({codes + x, static_cast<float>(likelihood), *level});
+            all += likelihood;
+          }
+        }
+      };
+      if (inner.empty()) add(whole);
+      else {
+        add({whole.first, inner.first});
+        add({inner.past, whole.past});
       }
     }
   }
-  // A cell that is the one with a probability w, and else what it was: its odds rise by a factor of 1 + w / (p (1 - w)) with p = odds / (1 + odds). Most are too unlikely to be it for that to make a difference.
+  // A cell that is the one with a probability w, and else what it was: its odds rise by a factor of 1 + w / (p (1 - w)). Most are too unlikely to be it for that to make a difference.
   const double least = 0.5 / evidence_per_nat;
   for (const Candidate& c : arc) {
-    const double is_it = c.likelihood / all, rise = is_it * (1.0 + c.odds) / (c.odds * std::max(1e-12, 1.0 - is_it));
-    if (rise < least) continue;
-    const int whole = static_cast<int>(std::lround(std::min(evidence_per_nat * std::log1p(rise), static_cast<double>(hit_))));
-    if (whole > 0) {
-      Code& code = *window.at(c.column, c.row);
-      code = std::max(code, code_of(whole));
-    }
+    const double likelihood = static_cast<double>(c.likelihood), p = probability_of_level[c.level], others = std::max(1e-12 * all, all - likelihood);
+    if (likelihood < least * p * others) continue;
+    const int evidence = std::min(evidence_of(1.0 + likelihood / (p * others)), hit_);
+    if (evidence > 0) *c.code = std::max(*c.code, code_of(evidence));
   }
 }
 

@@ -33,13 +33,14 @@ const Section& map_section() {
 }
 
 OccupancyMap::OccupancyMap(const MapSpec& spec)
-    : spec_(spec), cells_(make_cells(spec)), model_(std::make_unique<SensorModel>(spec)), views_(std::make_unique<ViewMemory>()), window_(std::make_unique<Window>()), again_(std::make_unique<Window>()) {}
+    : spec_(spec), cells_(make_cells(spec)), model_(std::make_unique<SensorModel>(spec)), views_(std::make_unique<ViewMemory>()), prior_(std::make_unique<Prior>()), window_(std::make_unique<Window>()), again_(std::make_unique<Window>()) {}
 
 OccupancyMap::OccupancyMap(const OccupancyMap& other)
     : spec_(other.spec_),
       cells_(other.cells_->clone()),
       model_(std::make_unique<SensorModel>(*other.model_)),
       views_(std::make_unique<ViewMemory>(*other.views_)),
+      prior_(std::make_unique<Prior>()),
       window_(std::make_unique<Window>()),
       again_(std::make_unique<Window>()),
       cells_updated_(other.cells_updated_) {}
@@ -65,14 +66,13 @@ void OccupancyMap::integrate(const Scan& scan, const Pose& vehicle) {
     if (part) reach = std::max(reach, model_->reach(*part));
   const CellIndex centre = cell_at(glm::dvec2(sensor.position));
   const auto cells = static_cast<std::int64_t>(std::ceil(reach / spec_.resolution_m)) + 2;
-  const SensorModel::Odds odds = [this](const CellIndex& cell) { return cells_->odds(cell); };
-  if (views.fresh) {
-    window_->place(centre, cells);
-    model_->draw(*views.fresh, sensor, odds, *window_);
-  }
+  Window& placed = views.fresh ? *window_ : *again_;
+  placed.place(centre, cells);
+  prior_->place(*cells_, placed);
+  if (views.fresh) model_->draw(*views.fresh, sensor, *prior_, *window_);
   if (views.repeated) {
     again_->place(centre, cells);
-    model_->draw(*views.repeated, sensor, odds, *again_);
+    model_->draw(*views.repeated, sensor, *prior_, *again_);
     if (views.fresh) again_->take_from(*window_);
     cells_updated_ += cells_->take(*again_, true, scan.time);
   }

@@ -5,11 +5,111 @@
 namespace thicket {
 namespace {
 
+// Vectors of the compiler: it makes of them what the machine has. The functions below are compiled for three kinds of it, and the widest that runs is chosen when the program starts.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define THICKET_WIDEST __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define THICKET_WIDEST
+#endif
+#define THICKET_INLINE inline __attribute__((always_inline))
+
+using Bytes = std::uint8_t __attribute__((vector_size(tile_size)));
+template <class Cell>
+struct Vector;
+template <>
+struct Vector<std::int8_t> {
+  using Of = std::int8_t __attribute__((vector_size(64)));
+  using Codes = std::uint8_t __attribute__((vector_size(64)));
+};
+template <>
+struct Vector<std::int16_t> {
+  using Of = std::int16_t __attribute__((vector_size(64)));
+  using Codes = std::uint8_t __attribute__((vector_size(32)));
+};
+
+template <class V>
+THICKET_INLINE void load(V& to, const void* from) {
+  std::memcpy(&to, from, sizeof(V));
+}
+
+/// As many cells as a vector has. Nothing overflows on the way: a value is held to where the evidence leaves it between the clamps, before the evidence is added.
+template <class Cell, bool limit>
+THICKET_INLINE void change(Cell* values, const Code* codes, int low_clamp, int high_clamp) {
+  using V = typename Vector<Cell>::Of;
+  constexpr Cell scale = static_cast<Cell>(Units<Cell>::per_nat / evidence_per_nat);
+  typename Vector<Cell>::Codes code;
+  V value;
+  load(code, codes);
+  load(value, values);
+  const V zero{}, low = zero + static_cast<Cell>(low_clamp), high = zero + static_cast<Cell>(high_clamp);
+  V evidence;
+  if constexpr (sizeof(Cell) == 1) evidence = reinterpret_cast<V>(code ^ Code{no_evidence});
+  else evidence = (__builtin_convertvector(code, V) - static_cast<Cell>(no_evidence)) * scale;
+  V untouched;  // all bits, or none
+  if constexpr (sizeof(Cell) == 1) untouched = reinterpret_cast<V>(code == 0);
+  else untouched = __builtin_convertvector(code, V) == 0;
+  V next = value == unknown_cell<Cell> ? zero : value;
+  if constexpr (limit) {
+    const V more = next > evidence ? next : evidence, less = next < evidence ? next : evidence;
+    next = evidence > 0 ? more : less;
+    next = next < low ? low : next;
+    next = next > high ? high : next;
+  } else {
+    const V down = evidence < 0 ? evidence : zero, up = evidence > 0 ? evidence : zero, lowest = low - down, highest = high - up;
+    next = (next < lowest ? lowest : next) + down;
+    next = (next > highest ? highest : next) + up;
+  }
+  next = untouched ? value : next;
+  std::memcpy(values, &next, sizeof next);
+}
+
+template <class Cell, bool limit>
+THICKET_INLINE Taken take(Cell* values, Code* codes, std::int64_t stride, int low, int high) {
+  constexpr int at_once = 64 / static_cast<int>(sizeof(Cell));
+  Bytes any{}, count{};
+  for (int row = 0; row < block_size; ++row, values += tile_size, codes += stride) {
+    Bytes code;
+    load(code, codes);
+    any |= code;
+    count -= reinterpret_cast<Bytes>(code != 0);
+    for (int i = 0; i < tile_size; i += at_once) change<Cell, limit>(values + i, codes + i, low, high);
+    code = Bytes{};
+    std::memcpy(codes, &code, sizeof code);
+  }
+  Taken taken;
+  for (int block = 0; block < blocks_per_side; ++block) {
+    std::uint64_t of_block, counts;
+    std::memcpy(&of_block, reinterpret_cast<const char*>(&any) + 8 * block, 8);
+    std::memcpy(&counts, reinterpret_cast<const char*>(&count) + 8 * block, 8);
+    taken.in_block[static_cast<std::size_t>(block)] = of_block != 0;
+    taken.cells += static_cast<int>((counts * 0x0101010101010101u) >> 56);  // the sum of eight bytes, 64 at most
+  }
+  return taken;
+}
+
+THICKET_WIDEST Taken add_8(std::int8_t* values, Code* codes, std::int64_t stride, int low, int high) { return take<std::int8_t, false>(values, codes, stride, low, high); }
+THICKET_WIDEST Taken add_16(std::int16_t* values, Code* codes, std::int64_t stride, int low, int high) { return take<std::int16_t, false>(values, codes, stride, low, high); }
+THICKET_WIDEST Taken limit_8(std::int8_t* values, Code* codes, std::int64_t stride, int low, int high) { return take<std::int8_t, true>(values, codes, stride, low, high); }
+THICKET_WIDEST Taken limit_16(std::int16_t* values, Code* codes, std::int64_t stride, int low, int high) { return take<std::int16_t, true>(values, codes, stride, low, high); }
+
 /// A bit for each byte of eight that is not 0.
 std::uint64_t not_zero(std::uint64_t eight) {
   constexpr std::uint64_t low = 0x7f7f7f7f7f7f7f7fu, high = 0x8080808080808080u;
   const std::uint64_t tops = (((eight & low) + low) | eight) & high;
   return ((tops >> 7) * 0x0102040810204080u) >> 56;
+}
+
+}  // namespace
+
+bool any_code(const Code* codes, std::int64_t stride) {
+  std::uint64_t all = 0;
+  for (int row = 0; row < block_size; ++row, codes += stride)
+    for (int i = 0; i < tile_size; i += 8) {
+      std::uint64_t eight;
+      std::memcpy(&eight, codes + i, 8);
+      all |= eight;
+    }
+  return all != 0;
 }
 
 std::uint64_t touched_of(const Code* codes) {
@@ -22,52 +122,7 @@ std::uint64_t touched_of(const Code* codes) {
   return touched;
 }
 
-// The compiler makes a loop over vectors of each of these, for the widest registers that the machine has.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define THICKET_WIDEST __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define THICKET_WIDEST
-#endif
-
-template <class Cell>
-inline __attribute__((always_inline)) void add_row(Cell* values, const Code* codes, int low, int high) {
-  constexpr int scale = static_cast<int>(Units<Cell>::per_nat / evidence_per_nat);
-  for (int i = 0; i < tile_size; ++i) {
-    const int code = codes[i], value = values[i], known = value == unknown_cell<Cell> ? 0 : value;
-    int next = known + (code - no_evidence) * scale;
-    next = next < low ? low : next > high ? high : next;
-    values[i] = static_cast<Cell>(code == 0 ? value : next);
-  }
-}
-
-template <class Cell>
-inline __attribute__((always_inline)) void limit_row(Cell* values, const Code* codes, int low, int high) {
-  constexpr int scale = static_cast<int>(Units<Cell>::per_nat / evidence_per_nat);
-  for (int i = 0; i < tile_size; ++i) {
-    const int code = codes[i], value = values[i], known = value == unknown_cell<Cell> ? 0 : value, evidence = (code - no_evidence) * scale;
-    int next = evidence > 0 ? (known > evidence ? known : evidence) : (known < evidence ? known : evidence);
-    next = next < low ? low : next > high ? high : next;
-    values[i] = static_cast<Cell>(code == 0 ? value : next);
-  }
-}
-
-THICKET_WIDEST void add_8(std::int8_t* values, const Code* codes, int low, int high) { add_row(values, codes, low, high); }
-THICKET_WIDEST void add_16(std::int16_t* values, const Code* codes, int low, int high) { add_row(values, codes, low, high); }
-THICKET_WIDEST void limit_8(std::int8_t* values, const Code* codes, int low, int high) { limit_row(values, codes, low, high); }
-THICKET_WIDEST void limit_16(std::int16_t* values, const Code* codes, int low, int high) { limit_row(values, codes, low, high); }
-
-template <class Cell, class Change>
-std::uint64_t take(Cell* values, Code* codes, const Rule& rule, Change* change) {
-  const std::uint64_t touched = touched_of(codes);
-  if (touched == 0) return 0;
-  change(values, codes, rule.low, rule.high);
-  std::memset(codes, 0, tile_size);
-  return touched;
-}
-
-}  // namespace
-
-std::uint64_t take_row(std::int8_t* values, Code* codes, const Rule& rule) { return take(values, codes, rule, rule.limit ? limit_8 : add_8); }
-std::uint64_t take_row(std::int16_t* values, Code* codes, const Rule& rule) { return take(values, codes, rule, rule.limit ? limit_16 : add_16); }
+Taken take_rows(std::int8_t* values, Code* codes, std::int64_t stride, const Rule& rule) { return (rule.limit ? limit_8 : add_8)(values, codes, stride, rule.low, rule.high); }
+Taken take_rows(std::int16_t* values, Code* codes, std::int64_t stride, const Rule& rule) { return (rule.limit ? limit_16 : add_16)(values, codes, stride, rule.low, rule.high); }
 
 }  // namespace thicket

@@ -1,18 +1,29 @@
 // Inverse sensor models: what a scan says of the cells around the sensor. Private to the room.
 #pragma once
 
-#include <functional>
+#include <array>
 
 #include <glm/vec2.hpp>
 
 #include "thicket/base/pose.hpp"
 #include "thicket/scan/scan.hpp"
-#include "window.hpp"
+#include "prior.hpp"
 
 namespace thicket {
 
-/// exp(-x^2 / 2) for |x| <= 2, from a table: to 1e-4.
-double bell(double x);
+/// exp(-x^2 / 2) for |x| <= 2, from a table: to 1e-3.
+inline double bell(double x) {
+  constexpr int steps = 1024;
+  static const auto table = [] {
+    std::array<float, 2 * steps + 1> values{};
+    for (int i = 0; i <= 2 * steps; ++i) values[static_cast<std::size_t>(i)] = static_cast<float>(std::exp(-0.5 * std::pow(static_cast<double>(i) / steps, 2)));
+    return values;
+  }();
+  return static_cast<double>(table[static_cast<std::size_t>(std::min(std::abs(x), 2.0) * steps + 0.5)]);
+}
+
+/// The evidence that multiplies odds by `ratio` > 0, in 1/32 nat, between -127 and 127: from a table, to a tenth of a unit before it is rounded.
+int evidence_of(double ratio);
 
 /// Draws scans into a window.
 ///
@@ -24,14 +35,12 @@ double bell(double x);
 /// Each cell there is as likely to be it as it was occupied before, times the normal error (Elfes 1987, in the form of Konolige 1997): cells known free stay so, and what is left of the arc gets all.
 class SensorModel {
  public:
-  using Odds = std::function<double(const CellIndex&)>;
-
   explicit SensorModel(const MapSpec& spec);
 
   /// How far the scan has anything to say, m, sigma included.
   double reach(const Scan& scan) const;
-  /// `sensor`: its pose in the world. `odds`: p / (1 - p) of matter in a cell as known before the scan. The window lies around the sensor and holds `reach`.
-  void draw(const Scan& scan, const Pose& sensor, const Odds& odds, Window& window) const;
+  /// `sensor`: its pose in the world. `prior`: what was known before the scan, placed as the window is. The window lies around the sensor and holds `reach`.
+  void draw(const Scan& scan, const Pose& sensor, Prior& prior, Window& window) const;
 
   /// Standard deviation of a scan's ranges, m.
   double sigma(const Scan& scan) const;
@@ -39,12 +48,13 @@ class SensorModel {
   int miss() const { return miss_; }
 
  private:
-  void draw_beams(const Scan& scan, const Pose& sensor, const Odds& odds, Window& window) const;
-  void draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2& from, double axis, double shrink, const Odds& odds, Window& window) const;
+  void draw_beams(const Scan& scan, const Pose& sensor, Prior& prior, Window& window) const;
+  void draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2& from, double axis, double shrink, Prior& prior, Window& window) const;
 
   double resolution_, sigma_;
   double probability_hit_;
   int hit_, miss_, unseen_;  ///< evidence of an echo, of a beam that went through, of a lobe that saw nothing there
+  std::array<double, 256> probability_missed_;  ///< of matter in a cell of a level, after a beam that went through it
 };
 
 }  // namespace thicket

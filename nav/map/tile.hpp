@@ -11,7 +11,7 @@
 namespace thicket {
 
 inline constexpr int tile_bits = 6, tile_size = 1 << tile_bits, tile_cells = tile_size * tile_size;
-inline constexpr int block_bits = 3, blocks_per_side = tile_size >> block_bits;  ///< "last seen" is kept for blocks of 8 x 8 cells
+inline constexpr int block_bits = 3, block_size = 1 << block_bits, blocks_per_side = tile_size >> block_bits;  ///< "last seen" is kept for blocks of 8 x 8 cells
 
 /// Log-odds as whole numbers.
 template <class Cell>

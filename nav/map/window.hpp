@@ -28,7 +28,7 @@ class Window {
   Window& operator=(Window&&) = default;
   ~Window() = default;
 
-  /// Puts it around a cell, on the grid of the tiles, `reach` cells to each side. Everything in it must be untouched: as it was made, or left behind by `take_row`.
+  /// Puts it around a cell, on the grid of the tiles, `reach` cells to each side. Everything in it must be untouched: as it was made, or left behind by `take_rows`.
   void place(const CellIndex& centre, std::int64_t reach) {
     tiles_ = (2 * reach + 1) / tile_size + 2;
     const auto cells = static_cast<std::size_t>(stride() * tiles_ * tile_size);
@@ -58,6 +58,7 @@ class Window {
     const auto cells = static_cast<std::size_t>(stride() * tiles_ * tile_size);
     for (std::size_t i = 0; i < cells; ++i) other.codes_[i] = codes_[i] != 0 ? Code{0} : other.codes_[i];
   }
+  bool any_through() const { return any_through_; }
   void no_more_through() { any_through_ = false; }
 
  private:

@@ -54,6 +54,7 @@ struct CellIndex {
 };
 
 class Cells;
+class Prior;
 class SensorModel;
 class ViewMemory;
 class Window;
@@ -104,6 +105,7 @@ class OccupancyMap {
   std::unique_ptr<Cells> cells_;
   std::unique_ptr<SensorModel> model_;
   std::unique_ptr<ViewMemory> views_;
+  std::unique_ptr<Prior> prior_;
   std::unique_ptr<Window> window_, again_;  ///< what is new in a scan, and what was seen from here before
   std::uint64_t cells_updated_ = 0;
 };
