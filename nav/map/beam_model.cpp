@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "sensor_model.hpp"
@@ -86,13 +86,6 @@ void walk(const Line& line, double begin, double end, Use&& use) {
 
 void raise(Code& code, Code to) { code = std::max(code, to); }
 
-/// Where along a beam of which the range is not sure to the cell the matter is.
-struct Candidate {
-  Code* code;
-  double likelihood;
-  Level level;
-};
-
 // Matter lies behind its face: as deep as this, in cells, a face tells of it. (Else cells of which the middle is matter would be left out wherever the face is in the cell before.)
 constexpr double depth = 0.5;
 
@@ -107,27 +100,10 @@ bool inside_after(const Echo& echo) { return echo.edge == Edge::front || echo.ed
 
 }  // namespace
 
-int evidence_of(double ratio) {
-  // By the first bits of the number: 16 octaves about 1, in 256 parts each.
-  constexpr int part_bits = 8, octaves = 16, shift = 23 - part_bits;
-  constexpr std::int32_t first = (127 - octaves / 2) << part_bits, count = octaves << part_bits;
-  static const auto table = [] {
-    std::array<std::int8_t, static_cast<std::size_t>(count)> values{};
-    for (int i = 0; i < count; ++i) {
-      const int octave = (i >> part_bits) - octaves / 2, part = i & ((1 << part_bits) - 1);
-      const double nats = octave * std::log(2.0) + std::log1p((part + 0.5) / (1 << part_bits));
-      values[static_cast<std::size_t>(i)] = static_cast<std::int8_t>(std::clamp(std::lround(evidence_per_nat * nats), -static_cast<long>(most_evidence), static_cast<long>(most_evidence)));
-    }
-    return values;
-  }();
-  const auto bits = std::bit_cast<std::int32_t>(static_cast<float>(ratio));
-  return table[static_cast<std::size_t>(std::clamp((bits >> shift) - first, 0, count - 1))];
-}
-
 SensorModel::SensorModel(const MapSpec& spec)
     : resolution_(spec.resolution_m),
       sigma_(spec.range_sigma_m.value_or(-1.0)),
-      probability_hit_(spec.probability_hit),
+      least_probability_(0.99 * spec.clamp_low),  // and rounding
       hit_(static_cast<int>(std::lround(evidence_per_nat * std::log(spec.probability_hit / (1.0 - spec.probability_hit))))),
       miss_(static_cast<int>(std::lround(evidence_per_nat * std::log(spec.probability_miss / (1.0 - spec.probability_miss))))),
       unseen_(static_cast<int>(std::lround(evidence_per_nat * std::log(1.0 - spec.probability_detection)))),
@@ -156,7 +132,6 @@ void SensorModel::draw_beams(const Scan& scan, const Pose& sensor, Prior& prior,
   const double spread = sigma(scan) / resolution_;
   const bool sure = spread < 0.5;  // then an echo is in its cell
   const double about = 2.0 * spread;  // an echo that is not sure comes from within this
-  std::vector<Candidate> candidates;
   const Code free = code_of(miss_);
   const auto for_beams = [&](auto&& use) {
     for (const Beam& beam : scan.beams) {
@@ -165,6 +140,10 @@ void SensorModel::draw_beams(const Scan& scan, const Pose& sensor, Prior& prior,
       if (shrink > 1e-9) use(beam, Line{from, along / shrink}, shrink / resolution_);
     }
   };
+  for_beams([&](const Beam& beam, const Line& line, double scale) {
+    const glm::dvec2 end = line.at(reach_of(scan, beam) * scale + std::max(depth + 1.0, about));
+    window.mark(glm::min(line.from, end), glm::max(line.from, end));
+  });
   // First what is free, which is the least that can be said; then whatever counts more.
   for_beams([&](const Beam& beam, const Line& line, double scale) {
     double begin = 0.0;
@@ -202,19 +181,20 @@ void SensorModel::draw_beams(const Scan& scan, const Pose& sensor, Prior& prior,
         }
         continue;
       }
-      candidates.clear();
+      candidates_.clear();
       double all = 0.0;
       walk(line, std::max(0.0, at - about), at + about, [&](std::int64_t column, std::int64_t row, double enters, double leaves) {
         const double off = (0.5 * (enters + leaves) - at) / spread;
         const Level level = *prior.at(column, row);
-        candidates.push_back({window.at(column, row), (leaves - enters) * odds_of_level[level] * bell(off), level});
-        all += candidates.back().likelihood;
+        const double likelihood = (leaves - enters) * odds_of_level[level] * bell(off);
+        candidates_.push_back({window.at(column, row), static_cast<float>(likelihood), level});
+        all += likelihood;
       });
       // If the matter is farther on, the beam went through this cell; if it is nearer, nothing is said of it.
       const double share = 1.0 / all;
       double nearer = 0.0;
-      for (const Candidate& c : candidates) {
-        const double here = c.likelihood * share, farther = std::max(0.0, 1.0 - here - nearer);
+      for (const Candidate& c : candidates_) {
+        const double here = static_cast<double>(c.likelihood) * share, farther = std::max(0.0, 1.0 - here - nearer);
         const double after = here + farther * probability_missed_[c.level] + nearer * probability_of_level[c.level];
         const int evidence = std::clamp(evidence_of(after / (std::max(1e-12, 1.0 - after) * odds_of_level[c.level])), miss_, hit_);
         if (evidence < 0 || evidence >= least_told) raise(*c.code, code_of(std::min(evidence, most_told)));

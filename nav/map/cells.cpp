@@ -25,8 +25,9 @@ class CellsOf final : public Cells {
 
   std::size_t take(Window& window, bool limit, double time) override {
     std::size_t cells = 0;
-    for (std::int64_t row = 0; row < window.tiles(); ++row)
-      for (std::int64_t column = 0; column < window.tiles(); ++column) cells += take_tile(window, column, row, {low_, high_, limit}, time);
+    const auto [first, last] = window.marked();
+    for (std::int64_t row = first.row; row <= last.row; ++row)
+      for (std::int64_t column = first.column; column <= last.column; ++column) cells += take_tile(window, column, row, {low_, high_, limit}, time);
     window.no_more_through();
     return cells;
   }

@@ -2,27 +2,13 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <memory>
 #include <vector>
 
 #include "cells.hpp"
+#include "tables.hpp"
 
 namespace thicket {
-
-/// Log-odds in 1/32 nat, as an index of tables.
-using Level = std::uint8_t;
-
-/// A number for each level; of `unknown_cell` that of 0.
-template <class Of>
-std::array<double, 256> for_levels(Of of) {
-  std::array<double, 256> values{};
-  for (int level = -128; level < 128; ++level) values[static_cast<Level>(level)] = of(level == -128 ? 0.0 : level / evidence_per_nat);
-  return values;
-}
-/// p / (1 - p), and p.
-inline const std::array<double, 256> odds_of_level = for_levels([](double log_odds) { return std::exp(log_odds); });
-inline const std::array<double, 256> probability_of_level = for_levels([](double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); });
 
 /// The tiles of a window, looked up when they are first asked for. Scratch: a copy of a map starts with an empty one.
 class Prior {

@@ -2,28 +2,17 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
 #include "thicket/base/pose.hpp"
 #include "thicket/scan/scan.hpp"
 #include "prior.hpp"
+#include "rows.hpp"
+#include "tables.hpp"
 
 namespace thicket {
-
-/// exp(-x^2 / 2) for |x| <= 2, from a table: to 1e-3.
-inline double bell(double x) {
-  constexpr int steps = 1024;
-  static const auto table = [] {
-    std::array<float, 2 * steps + 1> values{};
-    for (int i = 0; i <= 2 * steps; ++i) values[static_cast<std::size_t>(i)] = static_cast<float>(std::exp(-0.5 * std::pow(static_cast<double>(i) / steps, 2)));
-    return values;
-  }();
-  return static_cast<double>(table[static_cast<std::size_t>(std::min(std::abs(x), 2.0) * steps + 0.5)]);
-}
-
-/// The evidence that multiplies odds by `ratio` > 0, in 1/32 nat, between -127 and 127: from a table, to a tenth of a unit before it is rounded.
-int evidence_of(double ratio);
 
 /// Draws scans into a window.
 ///
@@ -52,8 +41,16 @@ class SensorModel {
   void draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2& from, double axis, double shrink, Prior& prior, Window& window) const;
 
   double resolution_, sigma_;
-  double probability_hit_;
+  double least_probability_;  ///< of matter in a cell: the clamp
   int hit_, miss_, unseen_;  ///< evidence of an echo, of a beam that went through, of a lobe that saw nothing there
+  /// Where the matter may be that gave the echo of a beam.
+  struct Candidate {
+    Code* code;
+    float likelihood;
+    Level level;
+  };
+  mutable std::vector<Candidate> candidates_;  ///< scratch
+  mutable std::vector<Piece> arc_;
   std::array<double, 256> probability_missed_;  ///< of matter in a cell of a level, after a beam that went through it
 };
 

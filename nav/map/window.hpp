@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -34,6 +36,7 @@ class Window {
     const auto cells = static_cast<std::size_t>(stride() * tiles_ * tile_size);
     if (codes_.size() < cells) codes_.resize(cells, 0);
     low_ = tile_of({centre.column - reach, centre.row - reach});
+    marked_ = {{tiles_, tiles_}, {-1, -1}};
   }
   /// From a row to the next: an odd number of tiles, for a power of two would put all cells of a column into one set of the cache.
   std::int64_t stride() const { return (tiles_ | 1) * tile_size; }
@@ -46,6 +49,15 @@ class Window {
   glm::dvec2 place_of(const glm::dvec2& point, double resolution) const { return point / resolution - glm::dvec2(static_cast<double>(corner().column), static_cast<double>(corner().row)); }
   Code* at(std::int64_t column, std::int64_t row) { return codes_.data() + row * stride() + column; }
 
+  /// A rectangle in which cells are drawn, in cells, is to be marked: what was never marked is not taken.
+  void mark(const glm::dvec2& low, const glm::dvec2& high) {
+    const auto tile = [&](double cell) { return std::clamp(static_cast<std::int64_t>(std::floor(cell)) >> tile_bits, std::int64_t{0}, tiles_ - 1); };
+    marked_.first = {std::min(marked_.first.column, tile(low.x - 1.0)), std::min(marked_.first.row, tile(low.y - 1.0))};
+    marked_.second = {std::max(marked_.second.column, tile(high.x + 1.0)), std::max(marked_.second.row, tile(high.y + 1.0))};
+  }
+  /// The first and the last tile that was marked, of this window's; none: the last is before the first.
+  const std::pair<CellIndex, CellIndex>& marked() const { return marked_; }
+
   /// Cells sensed through, in a plane of its own that exists from the first such cell on.
   void set_through(std::int64_t column, std::int64_t row) {
     if (through_.size() < codes_.size()) through_.resize(codes_.size(), 0);
@@ -55,8 +67,8 @@ class Window {
   std::uint8_t* through_at(std::int64_t column, std::int64_t row) { return any_through_ ? through_.data() + row * stride() + column : nullptr; }
   /// Cells that this one tells something of become untouched in the other, which lies in the same place.
   void take_from(Window& other) {
-    const auto cells = static_cast<std::size_t>(stride() * tiles_ * tile_size);
-    for (std::size_t i = 0; i < cells; ++i) other.codes_[i] = codes_[i] != 0 ? Code{0} : other.codes_[i];
+    const auto first = static_cast<std::size_t>(marked_.first.row * tile_size * stride()), past = static_cast<std::size_t>((marked_.second.row + 1) * tile_size * stride());
+    for (std::size_t i = first; i < past; ++i) other.codes_[i] = codes_[i] != 0 ? Code{0} : other.codes_[i];
   }
   bool any_through() const { return any_through_; }
   void no_more_through() { any_through_ = false; }
@@ -67,6 +79,7 @@ class Window {
   bool any_through_ = false;
   std::int64_t tiles_ = 0;
   CellIndex low_;
+  std::pair<CellIndex, CellIndex> marked_;
 };
 
 }  // namespace thicket
