@@ -18,19 +18,18 @@ namespace thicket {
 struct Said {
   static constexpr int nothing = -1000;
   int low = nothing, high = nothing;
+  int least = 1000;              ///< the least that any beam may say, nothing apart
   bool through = false;          ///< a beam passed it inside of matter
   bool perhaps_through = false;  ///< or just touched it there
 
   bool sure() const { return low == high && through == perhaps_through; }
   /// Where several beams say something the greatest counts.
-  void say(int evidence, bool sure) {
-    high = std::max(high, evidence);
-    if (sure) low = std::max(low, evidence);
+  void say(int lower, int upper) {
+    low = std::max(low, lower);
+    high = std::max(high, upper);
+    least = std::min(least, lower != nothing ? lower : upper);
   }
-  void say(int least, int most) {
-    low = std::max(low, least);
-    high = std::max(high, most);
-  }
+  void say(int evidence, bool sure) { say(sure ? evidence : nothing, evidence); }
 };
 
 class SlowScan {

@@ -110,7 +110,8 @@ void compare(const MapSpec& spec, const Scan& scan, const Pose& vehicle, Occupan
       tally.told += said.high != Said::nothing;
       tally.unsure += !said.sure();
       const auto after = [&](int evidence) { return evidence == Said::nothing ? log_odds(was) : std::clamp(log_odds(was) + evidence * unit, least, most); };
-      const auto [lowest, highest] = std::minmax({after(said.low), after(said.high)});  // to say nothing may be more than to say that it is free
+      // Nothing may be more than what is said of the free.
+      const auto [lowest, highest] = said.low == Said::nothing && said.high != Said::nothing ? std::minmax({after(Said::nothing), after(said.least), after(said.high)}) : std::pair(after(said.low), after(said.high));
       tally.values += log_odds(is) < lowest - 1.01 * unit || log_odds(is) > highest + 1.01 * unit;
       tally.known += (is.known && !was.known && said.high == Said::nothing) || (!is.known && (was.known || said.low != Said::nothing));
       // Sensed through is what a beam passed inside of matter, unless another met a surface there.
