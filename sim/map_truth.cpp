@@ -95,7 +95,7 @@ Result<RunScore> score_run(const Simulation& simulation, Convention convention, 
   const auto score = score_map(grid, *truth, tolerance_m);
   if (!score) return Error{"the map cannot be scored: " + score.error().message};
   const auto [z_low, z_high] = heights_of(mission);
-  return RunScore{*score, convention, z_low, z_high, grid.resolution, mission.map.clamp_low, mission.map.clamp_high, simulation.map().known_cells(), simulation.map().memory_bytes()};
+  return RunScore{*score, convention, z_low, z_high, grid.resolution, mission.map.clamp_low, mission.map.clamp_high, simulation.map().known_cells(), simulation.map().memory_bytes(), {}};
 }
 
 std::string score_json(const RunScore& score) {
@@ -112,8 +112,8 @@ std::string score_json(const RunScore& score) {
   json["nll"] = number(m.nll);
   json["edge_error_m"] = number(m.edge_error_m);
   json["edge_error_95_m"] = number(m.edge_error_95_m);
-  // Bytes of an update of the map (what is sent of it after a scan) belong here too, once the map makes updates.
   json["memory"] = {{"bytes", score.memory_bytes}, {"bytes_per_known_cell", number(static_cast<double>(score.memory_bytes) / static_cast<double>(score.known_cells))}};
+  json["updates"] = {{"every_s", MapUpdates::every_s}, {"count", score.updates.count}, {"bytes_mean", number(score.updates.mean())}, {"bytes_most", score.updates.most}};
   return json.dump(2) + "\n";
 }
 
@@ -126,7 +126,8 @@ std::string score_text(const RunScore& score) {
          fmt::format("NLL of claimed    {}   (mean probability {}; NLL of all known cells {})\n", fixed(m.claimed_nll), fixed(m.claimed_mean_p), fixed(m.nll)) +
          fmt::format("coverage          {}   ({} of {} cells)\n", percent(m.coverage), m.observed, m.judged) +
          fmt::format("edge error        {} m (95 %: {} m)\n", fixed(m.edge_error_m), fixed(m.edge_error_95_m)) +
-         fmt::format("memory            {:.2f} MB, {:.2f} bytes a known cell\n", static_cast<double>(score.memory_bytes) / 1e6, static_cast<double>(score.memory_bytes) / static_cast<double>(score.known_cells));
+         fmt::format("memory            {:.2f} MB, {:.2f} bytes a known cell\n", static_cast<double>(score.memory_bytes) / 1e6, static_cast<double>(score.memory_bytes) / static_cast<double>(score.known_cells)) +
+         fmt::format("updates           {} bytes a second (at most {}; {} of them)\n", std::isfinite(score.updates.mean()) ? fmt::format("{:.0f}", score.updates.mean()) : "-", score.updates.most, score.updates.count);
 }
 
 }  // namespace thicket

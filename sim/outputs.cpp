@@ -140,8 +140,8 @@ std::string timing_json(const Simulation& simulation, double wall_start_s, doubl
   json["realtime_factor"] = wall_run_s > 0.0 ? number(simulation.time() / wall_run_s) : Json(nullptr);
   json["phases_s"] = {{"trace", times.trace}, {"map", times.map}, {"plan", times.plan}, {"contact", times.contact},
                       {"other", wall_run_s - times.trace - times.map - times.plan - times.contact}};
-  // Time per cell belongs here too, once the map counts the cells that it updates.
   if (const auto scans = simulation.totals().scans; simulation.mission().map.enabled && scans > 0) json["map_ms_per_scan"] = 1e3 * times.map / static_cast<double>(scans);
+  if (const auto cells = simulation.map().cells_updated(); cells > 0) json["map_ns_per_cell"] = 1e9 * times.map / static_cast<double>(cells);
   return json.dump(2) + "\n";
 }
 

@@ -129,16 +129,25 @@ int run_mission(const RunArguments& arguments) {
   RunOptions options;
   options.realtime_factor = arguments.realtime_factor;
   options.interrupted = [] { return interrupted != 0; };
-  options.progress = [&progress](const Simulation& s) { progress.show(s); };
+  UpdateMeter updates;
+  const auto note = [&](const Simulation& s) {
+    if (mission->output.score) updates.note(s);
+  };
+  options.progress = [&](const Simulation& s) {
+    progress.show(s);
+    note(s);
+  };
+  note(*simulation);
   const double wall_start = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const double wall_run = run(*simulation, trajectory, options);
   progress.end();
+  note(*simulation);
 
   // What cannot be scored is still a run: its files are written.
   std::optional<RunScore> score;
   if (mission->output.score) {
     const auto judged = score_run(*simulation);
-    if (judged) score = *judged;
+    if (judged) (score = *judged)->updates = updates.updates();
     else fmt::print(stderr, "warning: no score.json: {}\n", judged.error().message);
   }
   const auto written = write_outputs(folder, *simulation, trajectory, wall_start, wall_run, score);

@@ -55,6 +55,14 @@ Result<Written> compare_with_written(const fs::path& folder, const OccupancyMap&
   return same(*written, map.to_grid()) ? Written::same : Written::other;
 }
 
+/// Not part of the score: it is another one each time.
+std::string map_time(const Simulation& simulation) {
+  const double s = simulation.phase_times().map;
+  const std::uint64_t cells = simulation.map().cells_updated(), scans = simulation.totals().scans;
+  if (cells == 0) return "-";  // all that is known was known before
+  return fmt::format("{:.2f} ns a cell, {:.3f} ms a scan, {:.2f} s in all", 1e9 * s / static_cast<double>(cells), 1e3 * s / static_cast<double>(scans), s);
+}
+
 }  // namespace
 
 int score_folder(const ScoreArguments& a) {
@@ -72,13 +80,18 @@ int score_folder(const ScoreArguments& a) {
   Trajectory trajectory;
   RunOptions options;
   if (told.interrupted_after) options.interrupted = [&simulation, &told] { return simulation->steps() >= *told.interrupted_after; };
+  UpdateMeter updates;
+  options.progress = [&updates](const Simulation& s) { updates.note(s); };
+  updates.note(*simulation);
   const double run_s = run(*simulation, trajectory, options);
+  updates.note(*simulation);
   const auto written = compare_with_written(folder, simulation->map());
   if (!written) return complain(written.error());
 
   const auto start = std::chrono::steady_clock::now();
-  const auto score = score_run(*simulation, a.truth == "cell_centre" ? Convention::cell_centre : Convention::any_overlap, a.tolerance);
+  auto score = score_run(*simulation, a.truth == "cell_centre" ? Convention::cell_centre : Convention::any_overlap, a.tolerance);
   if (!score) return complain(score.error());
+  score->updates = updates.updates();
   const double score_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (*written == Written::other) {
     const std::string by = told.version.empty() ? "result.json is missing" : told.version == version() ? "version " + told.version + ", as this one" : "version " + told.version + ", this one is " + version();
@@ -90,6 +103,7 @@ int score_folder(const ScoreArguments& a) {
   } else {
     fmt::print("simulated again   {:.1f} s in {:.2f} s, {}; judged in {:.2f} s\n{}", simulation->time(), run_s,
                *written == Written::same ? "the map is that of map.pgm" : *written == Written::other ? "the map is NOT that of map.pgm" : "there is no map.pgm to compare with", score_s, score_text(*score));
+    fmt::print("time of the map   {}\n", map_time(*simulation));
   }
   return *written == Written::other ? wrong : done;
 }

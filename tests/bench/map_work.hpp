@@ -132,7 +132,9 @@ struct Trial {
 /// Makes one step after another, for ever; on the way round and round.
 class Source {
  public:
-  Source(Instrument instrument, Trial trial) : hall(map_work::hall()), instrument_(std::move(instrument)), trial_(trial), way_(way()), noise_(0.0, instrument_.sigma) {}
+  Source(Instrument instrument, Trial trial) : Source(std::move(instrument), trial, map_work::hall(), map_work::way()) {}
+  /// In another hall, on another way.
+  Source(Instrument instrument, Trial trial, Hall place, std::vector<Pose2> way) : hall(std::move(place)), instrument_(std::move(instrument)), trial_(trial), way_(std::move(way)), noise_(0.0, instrument_.sigma) {}
 
   Hall hall;  ///< may be changed between steps, with `changed`
   const Instrument& instrument() const { return instrument_; }

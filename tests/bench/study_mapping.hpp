@@ -27,4 +27,7 @@ struct StillOptions {
 /// Standing still for long, with noise that is fresh or always the same; and whether a change is still seen after it.
 void study_still(const StillOptions& options);
 
+/// The bytes of maps, for each way to keep their cells; and of a hold that is nearly empty what the quadtree saves and costs.
+void study_memory();
+
 }  // namespace thicket::study

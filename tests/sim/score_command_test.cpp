@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "program_call.hpp"
@@ -67,7 +68,17 @@ TEST_CASE("run --score leaves score.json and its headline in result.json, and th
   CHECK(score["cells"]["claimed"].get<long>() > 100);
   CHECK(score["map"]["known_cells"] == json_of(folder.path() / "a/result.json")["map"]["known_cells"]);
   CHECK(score["memory"]["bytes"].get<long>() > score["map"]["known_cells"].get<long>());
-  CHECK(json_of(folder.path() / "a/timing.json")["map_ms_per_scan"].get<double>() > 0.0);
+  const auto timing = json_of(folder.path() / "a/timing.json");
+  CHECK(timing["map_ms_per_scan"].get<double>() > 0.0);
+  CHECK(timing["map_ns_per_cell"].get<double>() > 0.0);
+  CHECK(timing["map_ns_per_cell"].get<double>() < 1e6 * timing["map_ms_per_scan"].get<double>());
+  // Three seconds, three updates; together they tell of each known cell, but runs of equal ones in few bytes.
+  const auto updates = score["updates"];
+  CHECK(updates["every_s"] == 1.0);
+  CHECK(updates["count"] == 3);
+  CHECK(updates["bytes_mean"].get<double>() > 100.0);
+  CHECK(updates["bytes_most"].get<double>() >= updates["bytes_mean"].get<double>());
+  CHECK(updates["bytes_most"].get<double>() < score["memory"]["bytes"].get<double>());
 
   CHECK(call(folder, "run a/mission.toml --out b --quiet").code == 4);  // the key is in the mission that was written
   for (const char* name : {"score.json", "result.json"}) CHECK(*read_text_file(folder.path() / "a" / name) == *read_text_file(folder.path() / "b" / name));
@@ -78,6 +89,38 @@ TEST_CASE("run --score leaves score.json and its headline in result.json, and th
   CHECK_FALSE(json_of(folder.path() / "a/result.json")["map"].contains("score"));
 }
 
+TEST_CASE("updates are counted at each whole second, and a follower that takes them in has the map") {
+  const auto mission = read_mission(find_input("foliage_wall/map_radar"), {{"limits.time_s", "2.5", "test"}});
+  REQUIRE(mission);
+  auto simulation = Simulation::create(*mission);
+  REQUIRE(simulation);
+  OccupancyMap before = simulation->map(), follower = before;
+  UpdateMeter meter;
+  meter.note(*simulation);
+  MapUpdates expected;
+  double second = 1.0;
+  while (simulation->step()) {
+    meter.note(*simulation);
+    meter.note(*simulation);  // once too often does no harm
+    if (simulation->time() < second - 1e-6) continue;
+    const auto update = simulation->map().changes_since(before);
+    REQUIRE(follower.apply_changes(update));
+    CHECK(follower.known_cells() == simulation->map().known_cells());
+    before = simulation->map();
+    ++expected.count;
+    expected.bytes += update.size();
+    expected.most = std::max(expected.most, update.size());
+    second += 1.0;
+  }
+  meter.note(*simulation);
+  CHECK(meter.updates().count == 2);  // the last half second is not counted
+  CHECK(expected.count == 2);
+  CHECK(meter.updates().bytes == expected.bytes);
+  CHECK(meter.updates().most == expected.most);
+  CHECK(meter.updates().mean() == doctest::Approx(0.5 * static_cast<double>(expected.bytes)));
+  CHECK(std::isnan(MapUpdates{}.mean()));
+}
+
 TEST_CASE("score simulates a run again and judges the map that it left") {
   const TemporaryFolder folder;
   REQUIRE(call(folder, std::string(short_run) + "--score --out a").code == 4);
@@ -85,6 +128,8 @@ TEST_CASE("score simulates a run again and judges the map that it left") {
   CHECK(centre.code == 0);
   CHECK(has(centre.out, "the map is that of map.pgm"));
   CHECK(has(centre.out, "F1 within 0.2 m"));
+  CHECK(has(centre.out, "bytes a second"));
+  CHECK(has(centre.out, " ns a cell, "));
   CHECK(call(folder, "score a --json").out == *read_text_file(folder.path() / "a/score.json"));
   const auto overlap = nlohmann::json::parse(call(folder, "score a --json --truth any_overlap --tolerance 0").out);
   CHECK(overlap["truth"]["convention"] == "any_overlap");

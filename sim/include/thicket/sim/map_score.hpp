@@ -12,6 +12,7 @@
 
 #include "thicket/base/probability_grid.hpp"
 #include "thicket/base/result.hpp"
+#include "thicket/sim/map_updates.hpp"
 #include "thicket/worlds/truth.hpp"
 
 namespace thicket {
@@ -79,6 +80,7 @@ struct RunScore {
   double height_low_m = 0.0, height_high_m = 0.0;  ///< of the truth
   double resolution_m = 0.1, clamp_low = 0.0, clamp_high = 1.0;
   std::size_t known_cells = 0, memory_bytes = 0;
+  MapUpdates updates;  ///< of who noted them along the run; `score_run`, which sees only its end, knows of none
 };
 /// Scores the map as it is now, where the map says that things are: drift of the odometry is part of it. Errors: the mission makes no map, nothing is known yet, and as `occupancy`.
 Result<RunScore> score_run(const Simulation& simulation, Convention convention = Convention::cell_centre, double tolerance_m = 0.2);

@@ -18,7 +18,7 @@ const char* version();
 /// `result.json`: verdict, reason, simulated time, path length, ... and of a score the headline. The same run gives the same bytes; wall times are not in it.
 std::string result_json(const Simulation& simulation, const std::optional<RunScore>& score = std::nullopt);
 
-/// `timing.json`: wall time, real-time factor, and where the time went, of the map also per scan. `wall_run_s` is stepping alone, start-up and files apart.
+/// `timing.json`: wall time, real-time factor, and where the time went, of the map also per scan and per cell that a scan told something of. `wall_run_s` is stepping alone, start-up and files apart.
 std::string timing_json(const Simulation& simulation, double wall_start_s, double wall_run_s);
 
 /// `map.png`: the map in the colours of Rozeboom 2012 (blue never sensed, white sensed, grey clear, black obstacle; here also what was sensed through), with path, start, goal,
