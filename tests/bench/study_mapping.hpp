@@ -27,4 +27,7 @@ struct StillOptions {
 /// Standing still for long, with noise that is fresh or always the same; and whether a change is still seen after it.
 void study_still(const StillOptions& options);
 
+/// What of worlds/data/findings is found in cells of four sizes, by a beam radar and by four lobes.
+void study_found();
+
 }  // namespace thicket::study
