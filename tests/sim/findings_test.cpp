@@ -26,6 +26,17 @@ Simulation mapped(const char* name, const char* resolution, const char* evidence
 
 Found found(const Simulation& simulation) { return finds::found(simulation.map(), simulation.scene().world()); }
 
+void check_whole_walls(const char* evidence) {
+  for (const char* resolution : {"0.2", "0.1"}) {
+    CAPTURE(std::string(resolution));
+    const Simulation simulation = mapped("findings/beams", resolution, evidence);
+    const World& world = simulation.scene().world();
+    const finds::Look look(simulation.map());
+    CHECK_FALSE(look.doorway(finds::plan_of(world, "window pane")));
+    CHECK_FALSE(look.thing(finds::plan_of(world, "pole of the stop sign").moved(0.4, 1.0)));
+  }
+}
+
 }  // namespace
 
 TEST_CASE("a beam radar finds doorway, window, postbox and stop sign in cells of 0.2 m and less, and where there are none it finds none") {
@@ -46,17 +57,6 @@ TEST_CASE("a beam radar finds doorway, window, postbox and stop sign in cells of
 // Postbox and pole are half a metre and less from walls and run together with them; free cells behind a wall are too large to tell a window from it.
 // The doorway has room for one cell, which is claimed: a face is told of half a cell deep, along the beam, and beams that meet the wall beside the doorway aslant reach into it.
 TEST_CASE("a beam radar finds none of them in cells of half a metre") { CHECK(found(mapped("findings/beams", "0.5")) == Found{}); }
-
-void check_whole_walls(const char* evidence) {
-  for (const char* resolution : {"0.2", "0.1"}) {
-    CAPTURE(std::string(resolution));
-    const Simulation simulation = mapped("findings/beams", resolution, evidence);
-    const World& world = simulation.scene().world();
-    const finds::Look look(simulation.map());
-    CHECK_FALSE(look.doorway(finds::plan_of(world, "window pane")));
-    CHECK_FALSE(look.thing(finds::plan_of(world, "pole of the stop sign").moved(0.4, 1.0)));
-  }
-}
 
 TEST_CASE("where every look counts no way leads through a window pane, and no piece of a wall stands alone") { check_whole_walls("scans"); }
 
