@@ -55,8 +55,14 @@ TEST_CASE("a beam radar finds doorway, window, postbox and stop sign in cells of
 }
 
 // Postbox and pole are half a metre and less from walls and run together with them; free cells behind a wall are too large to tell a window from it.
-// The doorway has room for one cell, which is claimed: a face is told of half a cell deep, along the beam, and beams that meet the wall beside the doorway aslant reach into it.
-TEST_CASE("a beam radar finds none of them in cells of half a metre") { CHECK(found(mapped("findings/beams", "0.5")) == Found{}); }
+TEST_CASE("a beam radar finds no window, no postbox and no stop sign in cells of half a metre") {
+  Found coarse = found(mapped("findings/beams", "0.5"));
+  coarse.doorway = false;  // see below
+  CHECK(coarse == Found{});
+}
+
+// Wrong today: the doorway has room for a whole cell of half a metre, but looks that are drawn from another place than they were made from fill it.
+TEST_CASE("a beam radar finds the doorway in cells of half a metre" * doctest::should_fail()) { CHECK(found(mapped("findings/beams", "0.5")).doorway); }
 
 TEST_CASE("where every look counts no way leads through a window pane, and no piece of a wall stands alone") { check_whole_walls("scans"); }
 
