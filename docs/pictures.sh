@@ -8,7 +8,7 @@ trap 'rm -rf -- "$runs"' EXIT
 
 # Maps of missions.
 map() {
-  "$program" run "$1" --out "$runs/run" --quiet || [[ $? == 3 ]] # closed: there is no way
+  "$program" run "$1" --out "$runs/run" --quiet "${@:3}" || [[ $? == 3 ]] # closed: there is no way
   cp -- "$runs/run/map.png" "$root/docs/pictures/${2:-${1##*/}}.png"
 }
 # Ways of runs, of a file and under a name, and how long they are.
@@ -57,9 +57,14 @@ if [[ ${1:-all} == all || $1 == radar ]]; then
   scan floor_gate test_room/test_room --pose 0,2.5,1,180 --sensor x4m05 --set floor_gate=false --compare x4m05
 fi
 if [[ ${1:-all} == all || $1 == maps ]]; then
-  for mission in foliage_wall/{bug1,bug2,closed,smoke,map_radar,map_lidar} rooms/{convex,u,spiral}; do map "$mission"; done
+  for mission in foliage_wall/{bug1,bug2,closed,smoke,map_radar,map_first_echo,map_lidar} rooms/{convex,u,spiral}; do map "$mission"; done
   "$program" run foliage_wall/map_radar --out "$runs/run" --quiet --set 'output.map_formats="picture"'
   cp -- "$runs/run/map_probability.png" "$root/docs/pictures/map_probability.png"
+  # What 2018 missed: the room as it is, and its maps in cells of two sizes and by lobes.
+  "$program" picture findings/room --out "$root/docs/pictures/found_room.png" --size 640x400 --from 0.5,-6,7 --at 5,3,0.3 --hide ceiling
+  map findings/beams found_beams_005 --set map.resolution_m=0.05
+  map findings/beams found_beams_05 --set map.resolution_m=0.5
+  map findings/lobes found_lobes_01 --set map.resolution_m=0.1
   map thicket/look_through thicket_radar
   map thicket/look_through_lidar thicket_lidar
 fi

@@ -21,9 +21,11 @@ int call(int argc, char** argv) {
   still_command->add_option("--resolution", still.resolution, "metres a cell")->check(CLI::Range(0.02, 1.0))->capture_default_str();
   still_command->add_option("--works", still.works, "radar4x58, lidar360, lidar1440, lobe2018, separated by commas")->delimiter(',')->check(CLI::IsMember({"radar4x58", "lidar360", "lidar1440", "lobe2018"}));
   auto* memory_command = app.add_subcommand("memory", "the bytes of maps, for each way to keep their cells");
+  auto* found_command = app.add_subcommand("found", "what of a doorway, a window, a postbox and a stop sign is found in cells of which size");
   CLI11_PARSE(app, argc, argv);
   if (quality_command->parsed()) study_quality(quality);
   if (still_command->parsed()) study_still(still);
+  if (found_command->parsed()) study_found();
   if (memory_command->parsed()) study_memory();
   return 0;
 }

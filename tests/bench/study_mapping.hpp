@@ -29,5 +29,7 @@ void study_still(const StillOptions& options);
 
 /// The bytes of maps, for each way to keep their cells; and of a hold that is nearly empty what the quadtree saves and costs.
 void study_memory();
+/// What of worlds/data/findings is found in cells of four sizes, by a beam radar and by four lobes.
+void study_found();
 
 }  // namespace thicket::study
