@@ -103,6 +103,7 @@ bool inside_after(const Echo& echo) { return echo.edge == Edge::front || echo.ed
 SensorModel::SensorModel(const MapSpec& spec)
     : resolution_(spec.resolution_m),
       sigma_(spec.range_sigma_m.value_or(-1.0)),
+      lobe_share_(spec.lobe_share),
       least_probability_(0.99 * spec.clamp_low),  // and rounding
       hit_(static_cast<int>(std::lround(evidence_per_nat * std::log(spec.probability_hit / (1.0 - spec.probability_hit))))),
       miss_(static_cast<int>(std::lround(evidence_per_nat * std::log(spec.probability_miss / (1.0 - spec.probability_miss))))),

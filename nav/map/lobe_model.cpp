@@ -68,11 +68,16 @@ void SensorModel::draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2
   const double half = 0.5 * scan.azimuth_opening / parts;
   if (reach <= 0.0) return;
   static const auto odds = for_levels<float>([](double log_odds) { return std::exp(log_odds); });
+  const double sure = 0.5 * lobe_share_ * scan.azimuth_opening;
   arc_.clear();
   Arc arc{static_cast<float>(echo), static_cast<float>(1.0 / spread), odds.data()};
   const Code free = code_of(unseen_);
   for (int part = 0; part < parts; ++part) {
-    const Sector sector(from, axis + half * (2 * part + 1 - parts), half);
+    const double middle = axis + half * (2 * part + 1 - parts);
+    const Sector sector(from, middle, half);
+    // Of the part whose silence counts.
+    const double right = std::max(middle - half, axis - sure), left = std::min(middle + half, axis + sure);
+    const Sector silent(from, 0.5 * (right + left), std::max(0.0, 0.5 * (left - right)));
     const auto [lowest, highest] = sector.box();
     window.mark(from + reach * lowest, from + reach * highest);
     const auto low = static_cast<std::int64_t>(std::floor(from.y + reach * lowest.y)), high = static_cast<std::int64_t>(std::floor(from.y + reach * highest.y));
@@ -82,7 +87,7 @@ void SensorModel::draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2
       if (whole.empty()) continue;
       const Span inner = clear > 0.0 ? sector.row(y, clear) : Span{};
       Code* const codes = window.at(0, row);
-      if (!inner.empty()) raise_all(codes + inner.first, inner.past - inner.first, free);
+      if (const Span told = left > right && clear > 0.0 ? silent.row(y, clear) : Span{}; !told.empty()) raise_all(codes + told.first, told.past - told.first, free);
       if (echoes.empty()) continue;
       const auto square = static_cast<float>((y - from.y) * (y - from.y));
       for (std::int64_t x = whole.first & ~(piece_size - 1); x < whole.past; x += piece_size) {

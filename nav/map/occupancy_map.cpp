@@ -23,6 +23,7 @@ const Section& map_section() {
           .key("probability_hit", &S::probability_hit, "", between(0.501, 0.98), "of matter in a cell, given an echo in it")
           .key("probability_miss", &S::probability_miss, "", between(0.02, 0.499), "of matter in a cell that a beam went through")
           .key("probability_detection", &S::probability_detection, "", between(0.01, 0.98), "that a lobe gives an echo of matter in its opening: a silent lobe frees its opening, and each lobe what lies before its echo, by 1 - this")
+          .key("lobe_share", &S::lobe_share, "", between(0.05, 1.0), "of a lobe's opening, about its axis, that is freed: a wall that the border of a lobe meets aslant gives no echo, so its silence says nothing; 1 for a sensor that sees walls however aslant")
           .key("range_sigma_m", &S::range_sigma_m, "m", at_least(0.0), "standard deviation of ranges; not given: the sensor's own range_noise_m")
           .key("clamp_low", &S::clamp_low, "", between(0.02, 0.49), "no cell gets surer to be free than this")
           .key("clamp_high", &S::clamp_high, "", between(0.51, 0.98), "no cell gets surer to be occupied than this")
@@ -60,19 +61,18 @@ void OccupancyMap::integrate(const Scan& scan, const Pose& vehicle) {
   if (scan.beams.empty()) return;
   const Pose sensor = vehicle * Pose{scan.mount_position, scan.mount_orientation};
   // Half a cell: from farther apart, beams meet other parts of the same cells.
-  const auto views = spec_.evidence == "views" ? views_->take(scan, sensor, 0.5 * spec_.resolution_m) : ViewMemory::Views{&scan, nullptr};
-  double reach = 0.0;
-  for (const Scan* part : {views.fresh, views.repeated})
-    if (part) reach = std::max(reach, model_->reach(*part));
+  const auto views = spec_.evidence == "views" ? views_->take(scan, sensor, 0.5 * spec_.resolution_m) : ViewMemory::Views{&scan, {}};
+  if (!views.fresh && views.repeated.empty()) return;
+  double reach = views.fresh ? model_->reach(*views.fresh) : 0.0;
+  for (const ViewMemory::Part& part : views.repeated) reach = std::max(reach, model_->reach(part.scan));
   const CellIndex centre = cell_at(glm::dvec2(sensor.position));
-  const auto cells = static_cast<std::int64_t>(std::ceil(reach / spec_.resolution_m)) + 2;
-  Window& placed = views.fresh ? *window_ : *again_;
-  placed.place(centre, cells);
-  prior_->place(*cells_, placed);
+  const auto cells = static_cast<std::int64_t>(std::ceil(reach / spec_.resolution_m)) + 3;
+  window_->place(centre, cells);
+  prior_->place(*cells_, *window_);
   if (views.fresh) model_->draw(*views.fresh, sensor, *prior_, *window_);
-  if (views.repeated) {
+  if (!views.repeated.empty()) {
     again_->place(centre, cells);
-    model_->draw(*views.repeated, sensor, *prior_, *again_);
+    for (const ViewMemory::Part& part : views.repeated) model_->draw(part.scan, part.sensor, *prior_, *again_);
     if (views.fresh) again_->take_from(*window_);
     cells_updated_ += cells_->take(*again_, true, scan.time);
   }

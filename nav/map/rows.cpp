@@ -51,8 +51,10 @@ THICKET_INLINE void change(Cell* values, const Code* codes, int low_clamp, int h
   else untouched = __builtin_convertvector(code, V) == 0;
   V next = value == unknown_cell<Cell> ? zero : value;
   if constexpr (limit) {
-    const V more = next > evidence ? next : evidence, less = next < evidence ? next : evidence;
-    next = evidence > 0 ? more : less;
+    // From the other side of 0 by a step, else to the evidence itself; never back.
+    const V below = next > 0 ? next : zero, above = next < 0 ? next : zero;
+    const V fallen = next > evidence ? below + evidence : next, risen = next < evidence ? above + evidence : next;
+    next = evidence < 0 ? fallen : evidence > 0 ? risen : next;
     next = next < low ? low : next;
     next = next > high ? high : next;
   } else {

@@ -11,7 +11,7 @@ namespace thicket {
 /// How a code changes a cell.
 struct Rule {
   int low = 0, high = 0;  ///< clamps, in the cells' units
-  bool limit = false;     ///< false: evidence adds to the log-odds. True: a look that is no new witness brings a cell to where a first look would bring it, and no farther
+  bool limit = false;     ///< false: evidence adds to the log-odds. True: a look that is no new witness brings a cell as far as a first look would, a step a scan, and no farther
 };
 
 /// What was taken from rows of `tile_size` codes.

@@ -20,7 +20,7 @@ namespace thicket {
 /// within two sigma of an echo may be the one that gave it: as likely as it was occupied before, times the normal error of the range (the mixture of Thrun, Burgard & Fox 2005, section 9.3, beam by beam). If it is that one
 /// it is occupied, if the echo is from farther on the beam went through it, and if it is from nearer nothing is said: so noise does not thicken walls backward.
 ///
-/// A beam with an opening (a lobe) tells how far, not where: all of its opening is free before the first echo, with the certainty of its probability of detection; of the arc at the echo just one place need be matter.
+/// A beam with an opening (a lobe) tells how far, not where: its opening, or the share of it whose silence counts, is free before the first echo, with the certainty of its probability of detection; of the arc at the echo just one place need be matter.
 /// Each cell there is as likely to be it as it was occupied before, times the normal error (Elfes 1987, in the form of Konolige 1997): cells known free stay so, and what is left of the arc gets all.
 class SensorModel {
  public:
@@ -41,6 +41,7 @@ class SensorModel {
   void draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2& from, double axis, double shrink, Prior& prior, Window& window) const;
 
   double resolution_, sigma_;
+  double lobe_share_;
   double least_probability_;  ///< of matter in a cell: the clamp
   int hit_, miss_, unseen_;  ///< evidence of an echo, of a beam that went through, of a lobe that saw nothing there
   /// Where the matter may be that gave the echo of a beam.

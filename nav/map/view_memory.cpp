@@ -46,6 +46,7 @@ void begin(Scan& scan, const Scan& like) {
 ViewMemory::Views ViewMemory::take(const Scan& scan, const Pose& sensor, double same_place) {
   Place& place = places_[scan.sensor];
   auto look = std::make_shared<Look>();
+  look->sensor = sensor;
   look->yaw = yaw_of(sensor.orientation);
   look->beams = scan.beams;
   look->echoes = scan.echoes;
@@ -53,7 +54,7 @@ ViewMemory::Views ViewMemory::take(const Scan& scan, const Pose& sensor, double 
     place.position = sensor.position;
     place.looks.clear();
     place.looks.push_back(std::move(look));
-    return {&scan, nullptr};
+    return {&scan, {}};
   }
   const double tolerance = scan.azimuth_opening > 0.0 ? scan.azimuth_opening / 8.0 : radians(0.25);
   const bool turned = std::any_of(place.looks.begin(), place.looks.end(), [&](const auto& old) { return old->beams.size() != scan.beams.size() || std::abs(wrap_angle(old->yaw - look->yaw)) > tolerance; });
@@ -73,13 +74,14 @@ ViewMemory::Views ViewMemory::take(const Scan& scan, const Pose& sensor, double 
       old = std::move(indexed);
     }
   begin(fresh_, scan);
-  begin(repeated_, scan);
+  std::vector<std::pair<const Look*, std::size_t>> medians;
   struct Seen {
     double range;
     const Look* look;
     std::size_t beam;
   };
   std::array<Seen, looks + 1> seen;
+  const auto age = [&](const Look& of) { return std::find_if(place.looks.begin(), place.looks.end(), [&](const auto& old) { return old.get() == &of; }) - place.looks.begin(); };
   for (std::size_t b = 0; b < scan.beams.size(); ++b) {
     std::size_t count = 0;
     seen[count++] = {look->first_range(b), look.get(), b};
@@ -96,19 +98,26 @@ ViewMemory::Views ViewMemory::take(const Scan& scan, const Pose& sensor, double 
       add(fresh_, scan.beams[b], scan.echoes.data() + scan.beams[b].first_echo);
       continue;
     }
+    if (count < enough) continue;
     const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(count / 2);
     std::nth_element(seen.begin(), middle, seen.begin() + static_cast<std::ptrdiff_t>(count), [](const Seen& x, const Seen& y) { return x.range < y.range; });
-    Beam beam = middle->look->beams[middle->beam];
-    const Echo* echoes = middle->look->echoes.data() + beam.first_echo;
-    // Along today's bearing.
-    beam.azimuth = scan.beams[b].azimuth;
-    beam.elevation = scan.beams[b].elevation;
-    beam.direction = scan.beams[b].direction;
-    add(repeated_, beam, echoes);
+    medians.emplace_back(middle->look, middle->beam);
+  }
+  std::stable_sort(medians.begin(), medians.end(), [&](const auto& x, const auto& y) { return age(*x.first) < age(*y.first); });
+  std::size_t parts = 0;
+  for (std::size_t i = 0; i < medians.size(); ++i) {
+    const Look& of = *medians[i].first;
+    if (i == 0 || medians[i - 1].first != &of) {
+      if (repeated_.size() < ++parts) repeated_.emplace_back();
+      repeated_[parts - 1].sensor = of.sensor;
+      begin(repeated_[parts - 1].scan, scan);
+    }
+    const Beam& beam = of.beams[medians[i].second];
+    add(repeated_[parts - 1].scan, beam, of.echoes.data() + beam.first_echo);
   }
   place.looks.push_back(std::move(look));
   if (place.looks.size() > looks - 1) place.looks.pop_front();
-  return {fresh_.beams.empty() ? nullptr : &fresh_, repeated_.beams.empty() ? nullptr : &repeated_};
+  return {fresh_.beams.empty() ? nullptr : &fresh_, std::span(repeated_.data(), parts)};
 }
 
 }  // namespace thicket

@@ -21,6 +21,7 @@ struct Entry {
 ProbabilityGrid our_map(const std::vector<Step>& steps, double resolution) {
   MapSpec spec;
   spec.resolution_m = resolution;
+  spec.lobe_share = 1.0;  // lobes of this work see walls however aslant
   OccupancyMap map(spec);
   for (const Step& step : steps)
     for (const Scan& scan : step.scans) map.integrate(scan, step.pose_in_space());

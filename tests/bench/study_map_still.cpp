@@ -27,6 +27,7 @@ struct Mapper {
 std::vector<Mapper> mappers_of(const Instrument& instrument, double resolution) {
   MapSpec spec;
   spec.resolution_m = resolution;
+  spec.lobe_share = 1.0;  // lobes of this work see walls however aslant
   const auto ours = std::make_shared<OccupancyMap>(spec);
   const auto plain = std::make_shared<LogOddsGrid>(resolution);
   const double width = instrument.width;

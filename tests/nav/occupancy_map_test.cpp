@@ -221,6 +221,7 @@ TEST_CASE("a beam with an opening is free up to its echo and occupied along the 
   maker.beam(0.0, {echo(2.0, Edge::front)}, 2.0, BeamEnd::stopped);
   MapSpec spec;
   spec.resolution_m = 0.1;
+  spec.lobe_share = 1.0;
   OccupancyMap map(spec);
   map.integrate(maker.scan, Pose{});
   for (const double bearing : {-0.7, -0.3, 0.0, 0.2, 0.75}) {

@@ -71,7 +71,8 @@ class SlowScan {
   static constexpr double on_border = 0.01;  // a face this near to a border of cells is matter in the cell behind it
   static constexpr double touch = 1e-5;      // shorter than this a beam hardly meets a cell
   static constexpr double told = 0.33;       // so far off may a logarithm be where evidence is just enough, ...
-  static constexpr double small = 0.03;      // ... or just not nothing
+  static constexpr double small = 0.03;     // ... or just not nothing
+  static constexpr double table = 0.07;     // ... by a table of logarithms that is good to a sixteenth of a unit
 
   static int units(double probability) { return static_cast<int>(std::lround(32.0 * std::log(probability / (1.0 - probability)))); }
 
@@ -165,14 +166,15 @@ class SlowScan {
       const double farther = std::max(0.0, 1.0 - c.here - nearer), as_before = c.odds / (1.0 + c.odds), missed_odds = c.odds * std::exp(miss_ / 32.0), missed = missed_odds / (1.0 + missed_odds);
       const double after = std::min(c.here + farther * missed + nearer * as_before, 1.0 - 1e-12);
       const double evidence = std::clamp(32.0 * (std::log(after / (1.0 - after)) - std::log(c.odds)), static_cast<double>(miss_), static_cast<double>(hit_));
+      // (The map takes what was known to 1/32 nat, of 16 bits too: shares may be off by a hundredth.)
       // Half a nat and more counts, as a third of one; less is only known to be no more free than it was, if the echo is as likely to come from here or farther on.
       const int much = 10, little = nearer < 0.5 ? 0 : Said::nothing, whole = static_cast<int>(std::lround(evidence));
       const int now = whole >= 16 ? much : whole < 0 ? whole : little;
       int least = now, most = now;
       const auto or_also = [&](int other) { least = std::min(least, other), most = std::max(most, other); };
       if (std::abs(evidence - 15.5) < told) or_also(much), or_also(little);
-      if (std::abs(evidence + 0.5) < small) or_also(-1), or_also(little);
-      if (std::abs(nearer - 0.5) < 0.002 && whole > -1 && whole < 16) or_also(0), or_also(Said::nothing);
+      if (std::abs(evidence + 0.5) < table) or_also(-1), or_also(little);
+      if (std::abs(nearer - 0.5) < 0.01 && whole > -1 && whole < 16) or_also(0), or_also(Said::nothing);
       if (c.chord.length() < touch) or_also(Said::nothing);
       c.said->say(least, most);
       nearer += c.here;
@@ -193,9 +195,11 @@ class SlowScan {
       const glm::dvec2 off = glm::dvec2(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5) - from_;
       const double distance = glm::length(off), aside = std::abs(std::remainder(std::atan2(off.y, off.x) - axis, 2.0 * pi)) - 0.5 * opening;
       if (aside * distance > touch) return;
-      const bool at_side = std::abs(aside) * distance < touch, at_clear = std::abs(distance - clear) < touch, at_end = std::abs(std::abs(distance - echo) - 2.0 * spread) < touch;
+      const bool at_side = std::abs(aside) * distance < touch, at_clear = std::abs(distance - clear) < touch, at_end = std::abs(std::abs(distance - echo) - 2.0 * spread) < 1e-3 * spread;
       const bool sure = !at_side && !at_clear && !at_end;
-      if (distance <= clear + touch) said.say(unseen_, sure);
+      // Free is what lies before the echo, in the share of the opening whose silence counts.
+      const double aside_of_share = (aside + 0.5 * opening - 0.5 * spec_.lobe_share * opening) * distance;
+      if (distance <= clear + touch && aside_of_share < touch) said.say(unseen_, sure && aside_of_share < -touch);
       const double sigmas = (distance - echo) / spread;
       if (distance <= clear - touch || std::abs(sigmas) > 2.0 + touch) return;
       const double before = odds(column, row);

@@ -30,6 +30,7 @@ struct MapSpec {
   double probability_hit = 0.7;    ///< of matter in a cell, given an echo in it
   double probability_miss = 0.4;   ///< of matter in a cell, given a beam that went through it
   double probability_detection = 0.5;  ///< that a lobe gives an echo of a cell's matter: what it frees it frees by 1 - this
+  double lobe_share = 0.7;         ///< of a lobe's opening, about its axis: where its silence counts. A wall that is met aslant at the border gives no echo
   std::optional<double> range_sigma_m; ///< standard deviation of ranges; not given: what the sensor states
   double clamp_low = 0.1192;       ///< probabilities stay between these, so that the map can change its mind (OctoMap's values)
   double clamp_high = 0.971;
