@@ -90,15 +90,19 @@ void SensorModel::draw_lobe(const Scan& scan, const Beam& beam, const glm::dvec2
       if (const Span told = left > right && clear > 0.0 ? silent.row(y, clear) : Span{}; !told.empty()) raise_all(codes + told.first, told.past - told.first, free);
       if (echoes.empty()) continue;
       const auto square = static_cast<float>((y - from.y) * (y - from.y));
-      for (std::int64_t x = whole.first & ~(piece_size - 1); x < whole.past; x += piece_size) {
-        if (x >= inner.first && x + piece_size <= inner.past) {
-          x = ((inner.past - piece_size) & ~(piece_size - 1));  // the last piece that lies within
-          continue;
+      const auto add = [&](std::int64_t first, std::int64_t past) {
+        for (std::int64_t x = first; x < past; x += piece_size) {
+          Piece& piece = arc_.emplace_back();
+          piece.codes = codes + x;
+          const auto count = static_cast<int>(std::min<std::int64_t>(piece_size, past - x));
+          prior.copy(x, row, count, piece.levels);
+          add_piece(arc, static_cast<float>(static_cast<double>(x) + 0.5 - from.x), square, count, piece);
         }
-        arc_.emplace_back();
-        arc_.back().codes = codes + x;
-        arc_.back().levels = prior.at(x, row);
-        add_piece(arc, static_cast<float>(static_cast<double>(x) + 0.5 - from.x), square, static_cast<int>(std::max<std::int64_t>(0, whole.first - x)), static_cast<int>(whole.past - x), arc_.back());
+      };
+      if (inner.empty()) add(whole.first, whole.past);
+      else {
+        add(whole.first, inner.first);
+        add(inner.past, whole.past);
       }
     }
   }

@@ -1,12 +1,14 @@
 // What a map knew of the cells of a window before a scan. Private to the room.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstring>
 #include <memory>
 #include <vector>
 
 #include "cells.hpp"
-#include "tables.hpp"
+#include "rows.hpp"
 
 namespace thicket {
 
@@ -29,6 +31,16 @@ class Prior {
     const Level*& tile = tiles_[static_cast<std::size_t>((row >> tile_bits) * columns_ + (column >> tile_bits))];
     if (!tile) tile = look_up({low_.column + (column >> tile_bits), low_.row + (row >> tile_bits)});
     return tile + place_in_tile({column, row});
+  }
+  /// Of `count` cells of a row, as many as a piece has at most; of the rest of the piece anything.
+  void copy(std::int64_t column, std::int64_t row, int count, std::array<Level, piece_size>& levels) {
+    const int in_tile = tile_size - static_cast<int>(column & (tile_size - 1));
+    if (in_tile >= piece_size) {
+      std::memcpy(levels.data(), at(column, row), piece_size);
+      return;
+    }
+    std::copy_n(at(column, row), std::min(count, in_tile), levels.begin());
+    if (count > in_tile) std::copy_n(at(column + in_tile, row), count - in_tile, levels.begin() + in_tile);
   }
 
  private:

@@ -1,5 +1,6 @@
 #include "rows.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -108,31 +109,44 @@ THICKET_WIDEST void raise_all(Code* codes, std::int64_t count, Code to) {
   for (std::int64_t i = 0; i < count; ++i) codes[i] = codes[i] < to ? to : codes[i];
 }
 
-THICKET_WIDEST void add_piece(Arc& arc, float along, float square, int first, int past, Piece& piece) {
+THICKET_WIDEST void add_piece(Arc& arc, float along, float square, int count, Piece& piece) {
   using Floats = float __attribute__((vector_size(4 * piece_size)));
   using Whole = std::int32_t __attribute__((vector_size(4 * piece_size)));
   constexpr Floats number = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   constexpr Whole place = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   const Floats x = along + number, squares = x * x + square;
+  float at[piece_size], before[piece_size];
+  std::memcpy(at, &squares, sizeof at);
+  for (float& square_of : at) square_of = std::sqrt(square_of);
+  for (int i = 0; i < piece_size; ++i) before[i] = arc.odds[piece.levels[i]];
   Floats distance, odds;
-  for (int i = 0; i < piece_size; ++i) distance[i] = std::sqrt(squares[i]);
-  for (int i = 0; i < piece_size; ++i) odds[i] = arc.odds[piece.levels[i]];
+  load(distance, at);
+  load(odds, before);
   const Floats off = (distance - arc.radius) * arc.per_spread;
   // exp(-off^2 / 2) by its series about exp(-1): to 3e-5 where off is 2 at most.
   const Floats t = 1.0f - 0.5f * off * off;
   const Floats bell = 0.36787944f * (1.0f + t * (1.0f + t * (1.0f / 2 + t * (1.0f / 6 + t * (1.0f / 24 + t * (1.0f / 120 + t * (1.0f / 720 + t / 5040)))))));
-  const Whole in = (place >= first) & (place < past) & (t >= -1.001f);
-  const Floats likelihood = in ? odds * bell : Floats{};
+  // 1 at `count` places and 0 at the others: of comparisons of whole numbers the compiler would make scalars.
+  static constexpr auto ones = [] {
+    std::array<float, 2 * piece_size> values{};
+    for (std::size_t i = 0; i < piece_size; ++i) values[i] = 1.0f;
+    return values;
+  }();
+  Floats used;
+  load(used, ones.data() + piece_size - count);
+  Floats likelihood = odds * bell * used;
+  likelihood = t >= -1.001f ? likelihood : Floats{};
   Floats sums;
   std::memcpy(&sums, arc.sums.data(), sizeof sums);
   sums += likelihood;
   std::memcpy(arc.sums.data(), &sums, sizeof sums);
   std::memcpy(piece.likelihood.data(), &likelihood, sizeof likelihood);
-  // Of positive numbers the order is that of their bits.
-  const Whole bits = reinterpret_cast<Whole>(likelihood);
-  std::int32_t greatest = 0;
-  for (int i = 0; i < piece_size; ++i) greatest = greatest > bits[i] ? greatest : bits[i];
-  piece.greatest = std::bit_cast<float>(greatest);
+  Floats greatest = likelihood;
+  for (const int half : {8, 4, 2, 1}) {
+    const Floats other = __builtin_shuffle(greatest, place ^ half);
+    greatest = greatest > other ? greatest : other;
+  }
+  piece.greatest = greatest[0];
 }
 
 THICKET_WIDEST bool any_code(const Code* codes, std::int64_t stride) {

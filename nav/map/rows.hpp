@@ -22,12 +22,12 @@ struct Taken {
 
 /// Codes become `to` at least.
 void raise_all(Code* codes, std::int64_t count, Code to);
-/// Cells of an arc come in pieces of a row of so many, on the grid of the tiles.
+/// Cells of an arc come in pieces of a row.
 inline constexpr int piece_size = 16;
 struct Piece {
   Code* codes;
-  const Level* levels;
   float greatest;                              ///< of the likelihoods
+  std::array<Level, piece_size> levels{};
   std::array<float, piece_size> likelihood;  ///< odds times the normal error of the range; 0 where the cell is not of the arc
 };
 struct Arc {
@@ -35,8 +35,8 @@ struct Arc {
   const float* odds = nullptr;                   ///< for each level
   std::array<float, piece_size> sums{};        ///< of all likelihoods, place by place: so the same on every machine
 };
-/// Makes a piece of the cells [first, past) of the sixteen at `codes` and `levels`; the first of the sixteen lies `along` from the middle of the arc, its row `square` of its square. In cells.
-void add_piece(Arc& arc, float along, float square, int first, int past, Piece& piece);
+/// Makes a piece of the first `count` cells at its codes and levels: the first of them lies `along` from the middle of the arc, its row a distance whose square is `square`. In cells.
+void add_piece(Arc& arc, float along, float square, int count, Piece& piece);
 /// Whether any of the `block_size` rows of `tile_size` codes has one; rows lie `stride` apart.
 bool any_code(const Code* codes, std::int64_t stride);
 /// Takes as many rows into the rows of a tile, whose values follow each other. The codes are 0 afterwards.

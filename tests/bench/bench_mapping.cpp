@@ -40,6 +40,7 @@ void whole_way(benchmark::State& state, const Work& work, Make make, Integrate i
 MapSpec spec_of(double resolution) {
   MapSpec spec;
   spec.resolution_m = resolution;
+  spec.lobe_share = 1.0;  // as the peer: all of the opening
   return spec;
 }
 
