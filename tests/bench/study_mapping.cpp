@@ -22,11 +22,17 @@ int call(int argc, char** argv) {
   still_command->add_option("--works", still.works, "radar4x58, lidar360, lidar1440, lobe2018, separated by commas")->delimiter(',')->check(CLI::IsMember({"radar4x58", "lidar360", "lidar1440", "lobe2018"}));
   auto* memory_command = app.add_subcommand("memory", "the bytes of maps, for each way to keep their cells");
   auto* found_command = app.add_subcommand("found", "what of a doorway, a window, a postbox and a stop sign is found in cells of which size");
+  SizeOptions size;
+  auto* size_command = app.add_subcommand("size", "whether a scan costs more in a map that is large already");
+  size_command->add_option("--resolution", size.resolution, "metres a cell")->check(CLI::Range(0.02, 1.0))->capture_default_str();
+  size_command->add_option("--places", size.places, "looks all over 5 x 5 km")->check(CLI::Range(1, 1000000))->capture_default_str();
+  size_command->add_option("--pairs", size.pairs, "pairs of runs")->check(CLI::Range(3, 100000))->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   if (quality_command->parsed()) study_quality(quality);
   if (still_command->parsed()) study_still(still);
   if (found_command->parsed()) study_found();
   if (memory_command->parsed()) study_memory();
+  if (size_command->parsed()) study_size(size);
   return 0;
 }
 

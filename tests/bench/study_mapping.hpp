@@ -32,4 +32,11 @@ void study_memory();
 /// What of worlds/data/findings is found in cells of four sizes, by a beam radar and by four lobes.
 void study_found();
 
+struct SizeOptions {
+  double resolution = 0.05;  ///< m a cell
+  int places = 2000, pairs = 40;
+};
+/// Whether a scan costs more in a map that is large already.
+void study_size(const SizeOptions& options);
+
 }  // namespace thicket::study
