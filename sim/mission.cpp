@@ -321,4 +321,10 @@ Result<World> read_mission_world(const Mission& mission) {
 
 std::vector<std::string> vehicle_presets() { return shipped_names("sim/presets"); }
 
+bool is_mission(const std::filesystem::path& file) {
+  if (file.extension() != ".toml") return false;
+  const auto document = read_document(file);
+  return document && (document->find("world") || document->find("planner") || document->find("sensor"));
+}
+
 }  // namespace thicket

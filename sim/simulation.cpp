@@ -115,6 +115,7 @@ Simulation::Simulation(const Simulation& other)
       scan_counts_(other.scan_counts_),
       scan_estimates_(other.scan_estimates_),
       decision_(other.decision_),
+      manual_(other.manual_),
       scene_(other.scene_),
       clearance_(other.clearance_),
       clear_of_(other.clear_of_),
@@ -202,6 +203,7 @@ void Simulation::decide() {
     else readers_[i].add(scans_[i], {now.to_inner(scan_estimates_[i].position), wrap_angle(scan_estimates_[i].yaw - now.yaw)}, contour_);
   }
   bumpers_.read(contour_);
+  if (manual_) return;
   decision_ = planner_->decide({time(), now, vehicle_.speed, vehicle_.turn_rate, contour_, bumpers_});
   ++totals_.decisions;
   switch (decision_.outcome) {
@@ -256,7 +258,7 @@ void Simulation::check_limits() {
 void Simulation::check_progress() {
   const LimitSpec& limits = stage_->mission.limits;
   const auto since = [&](std::uint64_t step) { return static_cast<double>(steps_ - step) * stage_->mission.step_s; };
-  const bool moved = glm::distance(vehicle_.pose.position, stuck_pose_.position) > 0.05 || std::abs(wrap_angle(vehicle_.pose.yaw - stuck_pose_.yaw)) > radians(5.0);
+  const bool moved = manual_ || glm::distance(vehicle_.pose.position, stuck_pose_.position) > 0.05 || std::abs(wrap_angle(vehicle_.pose.yaw - stuck_pose_.yaw)) > radians(5.0);
   if (moved) {
     stuck_pose_ = vehicle_.pose;
     stuck_step_ = steps_;
@@ -265,7 +267,7 @@ void Simulation::check_progress() {
   }
   // One that turns for ever, or twitches, gets to no new place. Turning to look takes seconds, and a vehicle too slow for a quarter of a metre in that time is asked for less.
   const double patience = 4.0 * limits.stuck_s, speed = stage_->mission.planner.speed_m_s.value_or(stage_->mission.vehicle.speed_max_m_s);
-  if (glm::distance(vehicle_.pose.position, place_) > std::min(0.25, 0.25 * patience * std::min(speed, stage_->mission.vehicle.speed_max_m_s))) {
+  if (manual_ || glm::distance(vehicle_.pose.position, place_) > std::min(0.25, 0.25 * patience * std::min(speed, stage_->mission.vehicle.speed_max_m_s))) {
     place_ = vehicle_.pose.position;
     place_step_ = steps_;
   } else if (since(place_step_) >= patience) {

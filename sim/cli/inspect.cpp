@@ -60,12 +60,6 @@ int complain(const Error& error) {
   return bad_input;
 }
 
-bool is_mission(const std::filesystem::path& file) {
-  if (file.extension() != ".toml") return false;
-  const auto document = read_document(file);
-  return document && (document->find("world") || document->find("planner") || document->find("sensor"));
-}
-
 std::string missing_input(const std::string& name) {
   std::error_code none;
   if (std::filesystem::is_directory(name, none)) return fmt::format("'{}' is a folder, expected a file in it", name);

@@ -125,8 +125,6 @@ int help_topic(const std::string& topic, bool markdown);
 int complain(const Error& error);
 /// Why `find_input` found nothing of that name.
 std::string missing_input(const std::string& name);
-/// A TOML file that names a world, a planner or a sensor is a mission.
-bool is_mission(const std::filesystem::path& file);
 /// The file of a world by its name; an error if there is none, or a mission.
 Result<std::filesystem::path> find_world(const std::string& name);
 

@@ -80,6 +80,9 @@ struct Override {
 /// `usarsim2012`. Paths are relative to the mission file, then to what is shipped; in an override, to the working directory.
 Result<Mission> read_mission(const std::filesystem::path& file, const std::vector<Override>& overrides);
 
+/// A TOML file that names a world, a planner or a sensor is a mission; others are worlds. A file that cannot be parsed is none.
+bool is_mission(const std::filesystem::path& file);
+
 /// A mission as a file with every key, that reads back to the same mission from anywhere.
 std::string write_mission(const Mission& mission);
 

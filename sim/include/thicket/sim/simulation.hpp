@@ -69,6 +69,16 @@ class Simulation {
   /// Ends the run with the verdict stopped, if it has none yet.
   void stop(const std::string& reason);
 
+  // What a person may do to a run. Each leaves a run that goes on like any other; a verdict is taken back unless the hull touches something.
+
+  /// Drives by hand: the planner is not asked until nothing gives the wheel back to it; then it begins anew from where the robot is.
+  void drive(const std::optional<Command>& command);
+  bool driven_by_hand() const { return manual_.has_value(); }
+  /// This run under a changed mission, in the same world or (as it is at time 0) another one, and, if told so, with the robot put somewhere else. Time, pose, map and totals go on; whatever the changed keys concern begins
+  /// anew: the planner (from where the robot believes to be), bumpers, sensors, odometry, or the map. Errors as in `create`.
+  Result<Simulation> changed(const Mission& mission, const std::optional<Pose2>& pose = std::nullopt) const;
+  Result<Simulation> changed(const Mission& mission, Scene scene, const std::optional<Pose2>& pose) const;
+
   const Stage& stage() const { return *stage_; }
   const Mission& mission() const { return stage_->mission; }
   const Scene& scene() const { return scene_; }  ///< with moving solids where they are now
@@ -116,6 +126,7 @@ class Simulation {
   std::vector<std::uint64_t> scan_counts_;
   std::vector<Pose2> scan_estimates_;       ///< where the robot believed to be at each sensor's last scan
   Decision decision_;
+  std::optional<Command> manual_;
   Scene scene_;
   Clearance clearance_;
   double clear_of_ = 0.0;  ///< what the clearance now is at least, m
@@ -127,5 +138,8 @@ class Simulation {
   glm::dvec2 place_{0.0, 0.0};  ///< the last new place that it came to
   std::uint64_t place_step_ = 0;
 };
+
+/// A number of all that a run has come to: pose, estimate, decision, scans, bumpers, map, totals and verdict, but not of wall times. Two runs of the same number are, but for bad luck of 1 in 2^64, in the same state.
+std::uint64_t state_hash(const Simulation& simulation);
 
 }  // namespace thicket
