@@ -1,4 +1,4 @@
-// The studies of mapping: tables for docs/mapping.md. Nothing here is a test; the figures do not depend on the machine.
+// The studies of mapping: tables for docs/mapping.md. Nothing here is a test; the figures, but for those of `size`, do not depend on the machine.
 #include <CLI/CLI.hpp>
 
 #include "study_mapping.hpp"
