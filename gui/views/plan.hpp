@@ -21,6 +21,8 @@ namespace thicket::gui {
 
 ImU32 with_alpha(ImU32 colour, double share);  ///< its own alpha times the share
 ImU32 colour_of(const glm::dvec3& display, double alpha = 1.0);
+/// Words that can be read over anything.
+void label(const Frame& frame, const ImVec2& at, ImU32 colour, const char* words, ImDrawList& draw);
 /// On a ramp from yellow (0) over orange and purple to dark blue (1).
 ImU32 ramp(double share, double alpha);
 

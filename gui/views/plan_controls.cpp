@@ -136,14 +136,14 @@ void PlanControls::draw_grid(const Frame& frame, ImDrawList& draw) const {
     draw.AddLine(a, b, frame.colours.grid);
     if (std::abs(b.y - a.y) < 1.0f) continue;
     const float at = a.x + (b.x - a.x) * (bottom - a.y) / (b.y - a.y);
-    draw.AddText({at + 2.0f, bottom}, frame.colours.grid_text, number(x).c_str());
+    label(frame, {at + 2.0f, bottom}, frame.colours.grid_text, number(x).c_str(), draw);
   }
   for (double y = std::ceil(seen.low.y / step) * step; y <= seen.high.y; y += step) {
     const ImVec2 a = camera.to_screen({seen.low.x, y}), b = camera.to_screen({seen.high.x, y});
     draw.AddLine(a, b, frame.colours.grid);
     if (std::abs(b.x - a.x) < 1.0f) continue;
     const float at = a.y + (b.y - a.y) * (left - a.x) / (b.x - a.x);
-    if (at < bottom - line) draw.AddText({left, at + 1.0f}, frame.colours.grid_text, number(y).c_str());
+    if (at < bottom - line) label(frame, {left, at + 1.0f}, frame.colours.grid_text, number(y).c_str(), draw);
   }
 }
 
@@ -154,7 +154,7 @@ void PlanControls::draw_scale_bar(const Frame& frame, ImDrawList& draw) const {
   const ImVec2 end{camera.low.x + camera.size.x - 14.0f, camera.low.y + camera.size.y - ImGui::GetFontSize() - 12.0f}, start{end.x - length, end.y};
   draw.AddLine(start, end, frame.colours.text, 2.0f);
   for (const ImVec2& p : {start, end}) draw.AddLine({p.x, p.y - 5.0f}, {p.x, p.y + 1.0f}, frame.colours.text, 2.0f);
-  draw.AddText({start.x + 0.5f * (length - ImGui::CalcTextSize(words.c_str()).x), end.y - ImGui::GetFontSize() - 6.0f}, frame.colours.text, words.c_str());
+  label(frame, {start.x + 0.5f * (length - ImGui::CalcTextSize(words.c_str()).x), end.y - ImGui::GetFontSize() - 6.0f}, frame.colours.text, words.c_str(), draw);
 }
 
 }  // namespace thicket::gui

@@ -42,6 +42,12 @@ void dashes(const PlanCamera& camera, const glm::dvec2& from, const glm::dvec2& 
 
 }  // namespace
 
+void label(const Frame& frame, const ImVec2& at, ImU32 colour, const char* words, ImDrawList& draw) {
+  const ImU32 behind = with_alpha(frame.colours.background, 0.6);
+  for (const ImVec2 shift : {ImVec2(-1.0f, 0.0f), ImVec2(1.0f, 0.0f), ImVec2(0.0f, -1.0f), ImVec2(0.0f, 1.0f)}) draw.AddText({at.x + shift.x, at.y + shift.y}, behind, words);
+  draw.AddText(at, colour, words);
+}
+
 Pose2 pose_at(const Snapshot& now, double time) {
   const Simulation& simulation = *now.simulation;
   const auto step = static_cast<std::uint64_t>(std::llround(time / simulation.mission().step_s));
@@ -74,7 +80,7 @@ void draw_bumpers(const Frame& frame, const PlanCamera& camera, ImDrawList& draw
     if (press * camera.pixels_per_metre < 40.0) continue;
     const std::string words = fmt::format("{:.2f}", b.distance);
     const ImVec2 at = camera.to_screen(pose.position + (hull + 0.6 * press) * direction(middle)), size = ImGui::CalcTextSize(words.c_str());
-    draw.AddText({at.x - 0.5f * size.x, at.y - 0.5f * size.y}, frame.colours.text, words.c_str());
+    label(frame, {at.x - 0.5f * size.x, at.y - 0.5f * size.y}, frame.colours.text, words.c_str(), draw);
   }
 }
 
@@ -100,7 +106,7 @@ void draw_contact(const Frame& frame, const PlanCamera& camera, ImDrawList& draw
   const std::uint32_t solid = simulation.clearance().solid;
   const auto& solids = simulation.scene().world().solids;
   const std::string words = solid < solids.size() ? "touches " + (solids[solid].name.empty() ? "solid " + std::to_string(solid) : solids[solid].name) : "touches something";
-  draw.AddText({at.x + radius + 8.0f, at.y - 0.5f * ImGui::GetFontSize()}, frame.colours.contact, words.c_str());
+  label(frame, {at.x + radius + 8.0f, at.y - 0.5f * ImGui::GetFontSize()}, frame.colours.contact, words.c_str(), draw);
 }
 
 void draw_trail(const Frame& frame, const PlanCamera& camera, ImDrawList& draw) {
@@ -129,14 +135,14 @@ void draw_marks(const Frame& frame, const PlanCamera& camera, ImDrawList& draw) 
     if (mark.kind == Mark::Kind::segment) {
       dashes(camera, mark.from, mark.to, frame.colours.mark, draw);
       const ImVec2 middle = camera.to_screen(0.5 * (mark.from + mark.to));
-      draw.AddText({middle.x + 4.0f, middle.y + 2.0f}, with_alpha(frame.colours.mark, 0.8), mark.label.c_str());
+      label(frame, {middle.x + 4.0f, middle.y + 2.0f}, with_alpha(frame.colours.mark, 0.8), mark.label.c_str(), draw);
     }
   for (const Mark& mark : marks) {
     if (mark.kind != Mark::Kind::point) continue;
     const ImVec2 at = camera.to_screen(mark.from);
     draw.AddCircleFilled(at, 4.0f, frame.colours.mark);
     draw.AddCircle(at, 4.5f, frame.colours.robot_edge);
-    draw.AddText({at.x + 7.0f, at.y - ImGui::GetFontSize()}, frame.colours.text, mark.label.c_str());
+    label(frame, {at.x + 7.0f, at.y - ImGui::GetFontSize()}, frame.colours.text, mark.label.c_str(), draw);
   }
 }
 
@@ -144,19 +150,18 @@ void draw_places(const Frame& frame, const PlanCamera& camera, ImDrawList& draw)
   const Mission& mission = frame.now.simulation->mission();
   const ImVec2 start = camera.to_screen({mission.start.x_m, mission.start.y_m});
   draw.AddRect({start.x - 5.0f, start.y - 5.0f}, {start.x + 5.0f, start.y + 5.0f}, frame.colours.start, 0.0f, 0, 2.5f);
-  draw.AddText({start.x + 9.0f, start.y}, frame.colours.text, "start");
+  label(frame, {start.x + 9.0f, start.y}, frame.colours.text, "start", draw);
   for (std::size_t i = 0; i < mission.planner.waypoints_m.size() && planner_needs(mission.planner.name) == PlannerNeeds::waypoints; ++i) {
     const ImVec2 at = camera.to_screen(mission.planner.waypoints_m[i]);
     if (i > 0) draw.AddLine(camera.to_screen(mission.planner.waypoints_m[i - 1]), at, with_alpha(frame.colours.goal, 0.4));
     draw.AddCircle(at, 5.0f, frame.colours.goal, 0, 2.0f);
-    draw.AddText({at.x + 7.0f, at.y}, frame.colours.text, std::to_string(i + 1).c_str());
   }
   if (!has_goal(frame.now)) return;
   const ImVec2 goal = camera.to_screen(*mission.planner.goal_m);
   const auto tolerance = static_cast<float>(mission.planner.goal_tolerance_m * camera.pixels_per_metre);
   draw.AddCircle(goal, std::max(3.0f, tolerance), frame.colours.goal, 0, 1.5f);
   for (const float side : {-1.0f, 1.0f}) draw.AddLine({goal.x - 8.0f, goal.y - 8.0f * side}, {goal.x + 8.0f, goal.y + 8.0f * side}, frame.colours.goal, 3.0f);
-  draw.AddText({goal.x + 11.0f, goal.y}, frame.colours.text, "goal");
+  label(frame, {goal.x + 11.0f, goal.y}, frame.colours.text, "goal", draw);
 }
 
 void draw_hull(const PlanCamera& camera, const Pose2& pose, double radius, ImU32 fill, ImU32 edge, ImDrawList& draw) {

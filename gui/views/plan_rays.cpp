@@ -78,7 +78,10 @@ class BeamPainter {
     for (int i = 0; i <= count; ++i) points.push_back(at(middle - half + 2.0 * half * i / count, range));
   }
   void fan(const std::vector<ImVec2>& points, ImU32 colour) {
+    const ImDrawListFlags flags = draw_.Flags;
+    draw_.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // neighbours would show seams
     for (std::size_t i = 2; i < points.size(); ++i) draw_.AddTriangleFilled(points[0], points[i - 1], points[i], colour);
+    draw_.Flags = flags;
   }
 
   ImU32 plain() const { return light_ ? frame_.colours.lidar : frame_.colours.ray; }
