@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "thicket/sim/material_colour.hpp"
+
 namespace thicket {
 namespace {
 
@@ -80,6 +82,14 @@ Look look_of(const Material& material) {
     look.kind = Look::Kind::pane;
   }
   return look;
+}
+
+MaterialColour material_colour(const Material& material) {
+  const Look look = look_of(material);
+  MaterialColour result;
+  result.display = glm::dvec3(std::pow(look.colour.x, 1.0 / 2.2), std::pow(look.colour.y, 1.0 / 2.2), std::pow(look.colour.z, 1.0 / 2.2));
+  result.penetrable = at_frequency(material, 24.0).attenuation_db_per_m < 50.0;
+  return result;
 }
 
 }  // namespace thicket

@@ -1,4 +1,8 @@
-#include "../view.hpp"
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "plan.hpp"
 
 namespace thicket::gui {
 namespace {
@@ -7,11 +11,128 @@ class MapView final : public View {
  public:
   const char* name() const override { return "Map"; }
   void draw(const Frame& frame) override;
+
+ private:
+  void toolbar();
+  void draw_legend(const Frame& frame, ImDrawList& draw) const;
+  void draw_readout(const Frame& frame, ImDrawList& draw) const;
+  void judge(const Frame& frame);
+  void draw_score(const Frame& frame, ImDrawList& draw) const;
+
+  using Clock = std::chrono::steady_clock;
+  struct Judged {
+    std::string words;
+    double time = 0.0;
+  };
+
+  PlanControls controls_;
+  MapPicture map_{"map"};
+  bool probability_ = false, score_ = false, over_ = true;
+  Beside<Judged> judging_;
+  Judged judged_;
+  std::shared_ptr<const Simulation> judged_of_;
+  Clock::time_point judged_at_{};
 };
+
+void box_with_words(const Frame& frame, ImVec2 low, const std::string& words, ImDrawList& draw) {
+  const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+  draw.AddRectFilled({low.x - 6.0f, low.y - 4.0f}, {low.x + size.x + 6.0f, low.y + size.y + 4.0f}, with_alpha(frame.colours.background, 0.85), 3.0f);
+  draw.AddText(low, frame.colours.text, words.c_str());
+}
+
+void MapView::toolbar() {
+  if (ImGui::SmallButton(probability_ ? "probability (L)" : "legend (L)")) probability_ = !probability_;
+  ImGui::SameLine();
+  ImGui::Checkbox("score (C)", &score_);
+  ImGui::SameLine();
+  ImGui::Checkbox("robot and way (0)", &over_);
+  ImGui::SameLine();
+  controls_.buttons();
+}
+
+void MapView::draw_legend(const Frame& frame, ImDrawList& draw) const {
+  struct Entry {
+    ImU32 colour;
+    const char* words;
+  };
+  constexpr Entry legend[] = {{IM_COL32(0x2f, 0x4b, 0x8f, 255), "never sensed"}, {IM_COL32(255, 255, 255, 255), "sensed"}, {IM_COL32(0xc9, 0xcc, 0xd1, 255), "clear, surely"}, {IM_COL32(0x93, 0xb4, 0x8c, 255), "sensed through"}, {IM_COL32(0x11, 0x11, 0x11, 255), "obstacle"}};
+  constexpr Entry ramp[] = {{IM_COL32(0x2f, 0x4b, 0x8f, 255), "never sensed"}, {IM_COL32(255, 255, 255, 255), "0"}, {IM_COL32(191, 191, 191, 255), "0.25"}, {IM_COL32(127, 127, 127, 255), "0.5"}, {IM_COL32(64, 64, 64, 255), "0.75"}, {IM_COL32(0, 0, 0, 255), "1 matter"}, {IM_COL32(0x76, 0xa3, 0x6c, 255), "greenish: sensed through"}};
+  const float line = ImGui::GetFontSize();
+  float width = 12.0f;
+  const auto each = [&](auto use) {
+    if (probability_) for (const Entry& e : ramp) use(e);
+    else for (const Entry& e : legend) use(e);
+  };
+  each([&](const Entry& e) { width += line + 18.0f + ImGui::CalcTextSize(e.words).x; });
+  ImVec2 at{controls_.camera.low.x + 10.0f, controls_.camera.low.y + 8.0f};
+  draw.AddRectFilled({at.x - 5.0f, at.y - 4.0f}, {at.x + width, at.y + line + 4.0f}, with_alpha(frame.colours.background, 0.85), 3.0f);
+  each([&](const Entry& e) {
+    draw.AddRectFilled(at, {at.x + line, at.y + line}, e.colour);
+    draw.AddRect(at, {at.x + line, at.y + line}, frame.colours.faint);
+    draw.AddText({at.x + line + 5.0f, at.y}, frame.colours.text, e.words);
+    at.x += line + 18.0f + ImGui::CalcTextSize(e.words).x;
+  });
+}
+
+void MapView::draw_readout(const Frame& frame, ImDrawList& draw) const {
+  if (!controls_.hovered()) return;
+  const std::string words = describe_cell(*frame.now.simulation, controls_.camera.to_world(ImGui::GetIO().MousePos));
+  box_with_words(frame, {controls_.camera.low.x + 48.0f, controls_.camera.low.y + controls_.camera.size.y - 3.0f * ImGui::GetFontSize()}, words, draw);
+}
+
+/// Beside the drawing: large maps take a second.
+void MapView::judge(const Frame& frame) {
+  const bool waits = frame.still;
+  if (!judging_.busy() && judged_of_ != frame.now.simulation && Clock::now() - judged_at_ > std::chrono::seconds(1)) {
+    judged_of_ = frame.now.simulation;
+    judged_at_ = Clock::now();
+    // A copy: this thread goes on to read the map.
+    judging_.start([run = std::make_shared<const Simulation>(*frame.now.simulation)] {
+      const auto score = score_run(*run);
+      return Judged{score ? score_text(*score) : score.error().message, run->time()};
+    });
+  }
+  judging_.poll(waits, judged_);
+}
+
+void MapView::draw_score(const Frame& frame, ImDrawList& draw) const {
+  std::string words = judged_.words.empty() ? std::string("judging ...") : fmt::format("against the truth, at {:.1f} s\n{}", judged_.time, judged_.words);
+  while (!words.empty() && words.back() == '\n') words.pop_back();
+  box_with_words(frame, {controls_.camera.low.x + 12.0f, controls_.camera.low.y + 2.6f * ImGui::GetFontSize()}, words, draw);
+}
 
 void MapView::draw(const Frame& frame) {
   if (!frame.now.simulation) return ImGui::TextUnformatted("Nothing is open.");
-  ImGui::Text("%.2f s", frame.now.simulation->time());
+  if (!frame.still) toolbar();
+  controls_.begin(frame, "map");
+  controls_.pan(frame, true);
+  if (controls_.hovered()) {
+    if (key_pressed('L')) probability_ = !probability_;
+    if (key_pressed('C')) score_ = !score_;
+    if (key_pressed('0')) over_ = !over_;
+  }
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const PlanCamera& camera = controls_.camera;
+  const ImVec2 high{camera.low.x + camera.size.x, camera.low.y + camera.size.y};
+  draw.PushClipRect(camera.low, high, true);
+  draw.AddRectFilled(camera.low, high, MapPicture::unknown_colour());
+  map_.draw(frame, camera, probability_, 1.0, draw);
+  controls_.draw_grid(frame, draw);
+  if (over_) {
+    draw_trail(frame, camera, draw);
+    draw_marks(frame, camera, draw);
+    draw_places(frame, camera, draw);
+    draw_robot(frame, camera, draw);
+  }
+  draw_legend(frame, draw);
+  if (score_) {
+    judge(frame);
+    draw_score(frame, draw);
+  }
+  if (!frame.now.simulation->mission().map.enabled) box_with_words(frame, {camera.low.x + 12.0f, camera.low.y + 0.5f * camera.size.y}, "This mission makes no map: set map.enabled = true.", draw);
+  controls_.draw_scale_bar(frame, draw);
+  draw_readout(frame, draw);
+  draw.PopClipRect();
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -104,7 +105,37 @@ class CellsOf final : public Cells {
     }
   }
 
+  void changed_tiles(const Cells* other, const std::function<void(const CellIndex&, std::span<const CellLook>)>& use) const override {
+    const CellsOf* before = static_cast<const CellsOf*>(other);
+    std::vector<CellLook> looks(tile_cells);
+    store_->each([&](const CellIndex& index, const Tile<Cell>& tile) {
+      if (before && store_->shares(*before->store_, index)) return;
+      for (std::size_t place = 0; place < tile_cells; ++place) {
+        const Cell value = tile.values[place];
+        looks[place] = value == unknown_cell<Cell> ? CellLook{} : CellLook{share_of(value), true, tile.is_through(place), value <= low_};
+      }
+      use({index.column * tile_size, index.row * tile_size}, looks);
+    });
+    if (!before) return;
+    std::fill(looks.begin(), looks.end(), CellLook{});
+    Tile<Cell> scratch;
+    before->store_->each([&](const CellIndex& index, const Tile<Cell>&) {
+      if (!store_->find(index, scratch)) use({index.column * tile_size, index.row * tile_size}, looks);
+    });
+  }
+
  private:
+  /// The probability of a value, 0 ... 255, from a table of what eight bits can say: nobody sees more.
+  static std::uint8_t share_of(Cell value) {
+    static const auto table = [] {
+      std::array<std::uint8_t, 256> shares{};
+      for (int i = 0; i < 256; ++i) shares[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(255.0 / (1.0 + std::exp(-(i - 128) / Units<std::int8_t>::per_nat))));
+      return shares;
+    }();
+    constexpr int scale = static_cast<int>(Units<Cell>::per_nat / Units<std::int8_t>::per_nat);
+    return table[static_cast<std::size_t>(std::clamp(static_cast<int>(value) / scale + 128, 0, 255))];
+  }
+
   CellView view_of(const Tile<Cell>& tile, std::size_t place) const {
     const Cell value = tile.values[place];
     if (value == unknown_cell<Cell>) return {};

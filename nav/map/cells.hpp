@@ -1,8 +1,10 @@
 // The cells of a map, whatever their width and wherever they are kept. Private to the room.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "rows.hpp"
@@ -29,6 +31,8 @@ class Cells {
   virtual std::optional<std::pair<CellIndex, CellIndex>> extent() const = 0;
   /// Calls `use(cell, view)` for known cells, tile after tile by row and column; only of tiles that `since`, if given (cells of the same kind), does not share.
   virtual void each(const Cells* since, const std::function<void(const CellIndex&, const CellView&)>& use) const = 0;
+  /// As `OccupancyMap::changed_tiles`; `other`, if given, is of the same kind.
+  virtual void changed_tiles(const Cells* other, const std::function<void(const CellIndex&, std::span<const CellLook>)>& use) const = 0;
 };
 
 std::unique_ptr<Cells> make_cells(const MapSpec& spec);

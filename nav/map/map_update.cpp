@@ -81,6 +81,12 @@ std::vector<std::uint8_t> OccupancyMap::changes_since(const OccupancyMap& earlie
   return bytes;
 }
 
+void OccupancyMap::changed_tiles(const OccupancyMap* other, const std::function<void(const CellIndex&, std::span<const CellLook>)>& use) const {
+  static_assert(tile_cells_across == tile_size);
+  const bool same_kind = other && spec_.store == other->spec_.store && spec_.cell_bits == other->spec_.cell_bits && spec_.resolution_m == other->spec_.resolution_m && spec_.clamp_low == other->spec_.clamp_low;
+  cells_->changed_tiles(same_kind ? other->cells_.get() : nullptr, use);
+}
+
 Result<Done> OccupancyMap::apply_changes(std::span<const std::uint8_t> changes) {
   double resolution = 0.0;
   if (changes.size() < magic.size() + sizeof(double) || !std::equal(magic.begin(), magic.end(), changes.begin())) return Error{"these bytes are no update of a map, expected those of changes_since"};

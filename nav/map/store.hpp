@@ -22,7 +22,7 @@ class Store {
   virtual const Tile<Cell>* find(const CellIndex& tile, Tile<Cell>& scratch) const = 0;
   /// Every tile in which something was sensed, in no particular order.
   virtual void each(const std::function<void(const CellIndex&, const Tile<Cell>&)>& use) const = 0;
-  /// The tile is the very one of the other store (of the same kind), so that nothing in it can have changed. False: it may have.
+  /// The tile is the very one of the other store (of the same kind), or like it in everything. False: it may have changed.
   virtual bool shares(const Store& other, const CellIndex& tile) const = 0;
   virtual std::size_t memory_bytes() const = 0;
 };

@@ -385,6 +385,56 @@ TEST_CASE("an update makes a copy of the earlier map a copy of the later one, an
   }
 }
 
+TEST_CASE("the squares that changed, drawn over a picture of the earlier map, are a picture of the later one, and back") {
+  for (const char* store : {"tiles", "dense", "quadtree"})
+    for (const int bits : {8, 16}) {
+      CAPTURE(store);
+      CAPTURE(bits);
+      MapSpec spec;
+      spec.store = store;
+      spec.cell_bits = bits;
+      spec.evidence = "scans";
+      OccupancyMap map(spec);
+      const auto look = [&](double x) {
+        ScanMaker maker;
+        for (int i = 0; i < 40; ++i) maker.beam(0.15 * i, {echo(3.0 + 0.05 * i, Edge::front), echo(3.6 + 0.05 * i, Edge::back)}, 6.0, BeamEnd::open);
+        map.integrate(maker.scan, Pose::planar(x, 0.4, 0.0, 0.1));
+      };
+      std::map<std::pair<std::int64_t, std::int64_t>, CellLook> picture;
+      int squares = 0;
+      const auto paint = [&](const CellIndex& corner, std::span<const CellLook> looks) {
+        ++squares;
+        for (std::size_t i = 0; i < looks.size(); ++i) picture[{corner.column + static_cast<std::int64_t>(i % 64), corner.row + static_cast<std::int64_t>(i / 64)}] = looks[i];
+      };
+      const auto check = [&](const OccupancyMap& of) {
+        std::size_t known = 0, wrong = 0;
+        for (const auto& [cell, seen] : picture) {
+          const CellIndex index{cell.first, cell.second};
+          const CellView view = of.view(index);
+          known += seen.known;
+          wrong += seen.known != view.known || seen.sensed_through != view.sensed_through || seen.surely_free != of.surely_free(index) || (view.known && std::abs(seen.probability / 255.0 - view.probability) > 0.012);
+        }
+        CHECK(wrong == 0);
+        CHECK(known == of.known_cells());
+      };
+      look(0.0);
+      const OccupancyMap first = map;
+      first.changed_tiles(nullptr, paint);
+      check(first);
+      const int all = squares;
+      squares = 0;
+      map.changed_tiles(&first, paint);
+      CHECK(squares == 0);
+      look(40.0);
+      map.changed_tiles(&first, paint);
+      CHECK(squares > 0);
+      CHECK(squares <= all + 4);
+      check(map);
+      first.changed_tiles(&map, paint);
+      check(first);
+    }
+}
+
 TEST_CASE("a map can begin with what another knew, on the same grid") {
   OccupancyMap first(spec_at(0.1)), second(spec_at(0.1)), coarse(spec_at(0.2));
   wander(first, 20, 6);

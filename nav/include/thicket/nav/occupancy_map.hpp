@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -54,6 +55,13 @@ struct CellIndex {
   bool operator==(const CellIndex&) const = default;
 };
 
+/// A cell as a picture needs it.
+struct CellLook {
+  std::uint8_t probability = 128;  ///< of matter, 0 ... 255 for 0 ... 1
+  bool known = false, sensed_through = false, surely_free = false;
+  bool operator==(const CellLook&) const = default;
+};
+
 class Cells;
 class Prior;
 class SensorModel;
@@ -95,6 +103,12 @@ class OccupancyMap {
   ProbabilityGrid to_probabilities() const;
   /// Puts in what is known beforehand, between the clamps. Errors: a grid of another resolution, or whose origin is not a multiple of it.
   Result<Done> start_from(const ProbabilityGrid& grid);
+
+  /// The edge of the squares that `changed_tiles` gives, cells.
+  static constexpr int tile_cells_across = 64;
+  /// Calls `use(corner, looks)` for each square of cells that may not be as it was in another copy of this map, row by row from its lower-left cell `corner`; of squares that only the other map knows, too. Without another one,
+  /// or with one of another resolution or store: for all that is known. The looks are valid during the call.
+  void changed_tiles(const OccupancyMap* other, const std::function<void(const CellIndex& corner, std::span<const CellLook> looks)>& use) const;
 
   /// The cells that are not as they were in an earlier copy of this map, in few bytes: for windows, and for links with little bandwidth. To 1/32 nat of log-odds.
   std::vector<std::uint8_t> changes_since(const OccupancyMap& earlier) const;
