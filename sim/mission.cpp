@@ -7,6 +7,7 @@
 #include "overrides.hpp"
 #include "thicket/base/files.hpp"
 #include "thicket/base/text.hpp"
+#include "thicket/sim/mission_parts.hpp"
 
 namespace thicket {
 namespace {
@@ -313,6 +314,34 @@ std::vector<std::size_t> bumper_sensors(const Mission& mission) {
   for (std::size_t i = 0; i < mission.sensors.size(); ++i)
     if (i == 0 || (std::holds_alternative<LobeRadarSpec>(mission.sensors[0]) && std::holds_alternative<LobeRadarSpec>(mission.sensors[i]))) chosen.push_back(i);
   return chosen;
+}
+
+std::vector<MissionPart> mission_parts(Mission& mission) {
+  static const SectionOf<Mission> header = header_section();
+  std::vector<MissionPart> list = {{"mission", &header, &mission}};
+  for (const Part& part : parts()) list.push_back({part.key, &part.section(), part.object(mission)});
+  for (SensorSpec& sensor : mission.sensors) list.push_back({"sensor " + mounted(sensor).name, &sensor_section(sensor), sensor_object(sensor)});
+  return list;
+}
+
+Result<Mission> reconsidered_mission(const Mission& was, Mission is, const std::filesystem::path& mission_file) {
+  Node root;
+  root.content = Node::Table{};
+  root.place = {"mission", 0, 0};
+  Faults faults;
+  const auto find = [&](const char* key, const std::string& before, const std::string& name, std::filesystem::path& file) {
+    if (name == before) return;
+    file = name.empty() ? std::filesystem::path() : locate(nullptr, (mission_file.parent_path() / name).string(), {});
+    if (file.empty() && !name.empty()) file = locate(nullptr, name, {});
+    if (file.empty() && !name.empty()) faults.add(root.place, fmt::format("'{}' is '{}', expected a file, by a path relative to the mission's, or a shipped one", key, name));
+  };
+  find("world", was.world, is.world, is.world_file);
+  find("world_image", was.world_image, is.world_image, is.image_file);
+  find("map.initial", was.map.initial, is.map.initial, is.initial_map_file);
+  if (is.world.empty()) faults.add(root.place, "'world' is empty, expected a world file or map_server YAML");
+  if (faults.none()) check_together(root, is, faults);
+  if (!faults.none()) return faults.error();
+  return is;
 }
 
 Result<World> read_mission_world(const Mission& mission) {
