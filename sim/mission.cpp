@@ -268,6 +268,14 @@ Result<Mission> read_mission(const std::filesystem::path& file, const std::vecto
   return mission;
 }
 
+namespace {
+
+std::string sensor_entry(const SensorSpec& sensor) {
+  return fmt::format("type = {}\n{}", toml_string(sensor_type(sensor)), write_section(sensor_section(sensor), sensor_object(sensor)));
+}
+
+}  // namespace
+
 std::string write_mission(const Mission& mission) {
   Mission copy = mission;
   copy.world = portable_name(mission.world_file);
@@ -276,7 +284,7 @@ std::string write_mission(const Mission& mission) {
   std::string text = "# Fully resolved: running this file again gives the same result.\n" + write_section(header_section(), &copy);
   for (const Part& part : parts()) text += fmt::format("\n[{}]\n{}", part.key, write_section(part.section(), part.object(copy)));
   for (const SensorSpec& sensor : mission.sensors)
-    text += fmt::format("\n[[sensor]]\ntype = {}\n{}", toml_string(sensor_type(sensor)), write_section(sensor_section(sensor), sensor_object(sensor)));
+    text += "\n[[sensor]]\n" + sensor_entry(sensor);
   return text;
 }
 
@@ -316,6 +324,26 @@ std::vector<std::size_t> bumper_sensors(const Mission& mission) {
   return chosen;
 }
 
+namespace {
+
+void put_at(Node& node, const Place& place) {
+  node.place = node.key_place = place;
+  if (auto* array = std::get_if<Node::Array>(&node.content))
+    for (Node& item : *array) put_at(item, place);
+  if (auto* table = std::get_if<Node::Table>(&node.content))
+    for (auto& [name, item] : *table) put_at(item, place);
+}
+
+/// What the reader says of a sensor's keys together: it is asked.
+void check_sensor(const SensorSpec& sensor, Faults& faults) {
+  auto entry = parse_document(sensor_entry(sensor), "sensor");
+  if (!entry) return faults.take(entry.error());
+  put_at(*entry, {"sensor " + mounted(sensor).name, 0, 0});
+  read_sensor(*entry, faults);
+}
+
+}  // namespace
+
 std::vector<MissionPart> mission_parts(Mission& mission) {
   static const SectionOf<Mission> header = header_section();
   std::vector<MissionPart> list = {{"mission", &header, &mission}};
@@ -339,6 +367,8 @@ Result<Mission> reconsidered_mission(const Mission& was, Mission is, const std::
   find("world_image", was.world_image, is.world_image, is.image_file);
   find("map.initial", was.map.initial, is.map.initial, is.initial_map_file);
   if (is.world.empty()) faults.add(root.place, "'world' is empty, expected a world file or map_server YAML");
+  for (std::size_t i = 0; i < is.sensors.size(); ++i)
+    if (i >= was.sensors.size() || sensor_entry(was.sensors[i]) != sensor_entry(is.sensors[i])) check_sensor(is.sensors[i], faults);
   if (faults.none()) check_together(root, is, faults);
   if (!faults.none()) return faults.error();
   return is;
