@@ -110,6 +110,7 @@ void Editor::follow(const Snapshot& now) {
         changes_.clear();
         done_ = bytes_ = 0;
       }
+      ++revision_;
       if (refused) message = now.message.text;
     }
     under_way_ = 0;
@@ -173,6 +174,7 @@ void Editor::make(Change change) {
     changes_.erase(changes_.begin());
   }
   done_ = changes_.size();
+  ++revision_;
   changed_ = true;
 }
 
@@ -226,12 +228,14 @@ bool Editor::set_material(std::uint32_t at, const std::string& name) {
 bool Editor::undo() {
   if (done_ == 0) return false;
   revert(world_, changes_[--done_]);
+  ++revision_;
   return changed_ = true;
 }
 
 bool Editor::redo() {
   if (done_ == changes_.size()) return false;
   apply(world_, changes_[done_++]);
+  ++revision_;
   return changed_ = true;
 }
 

@@ -21,6 +21,8 @@ class Editor {
   /// As it is to be: with what is under way to the run.
   const World& world() const { return world_; }
   bool open() const { return open_; }
+  /// Another number: another world.
+  std::uint64_t revision() const { return revision_; }
 
   std::uint32_t add(Solid solid);
   /// Nothing happens if the solid is as it was.
@@ -62,7 +64,7 @@ class Editor {
   std::vector<Change> changes_;
   std::size_t done_ = 0, bytes_ = 0;
   const World* seen_ = nullptr;
-  std::uint64_t seen_world_ = 0, seen_run_ = 0, seen_message_ = 0, under_way_ = 0;
+  std::uint64_t seen_world_ = 0, seen_run_ = 0, seen_message_ = 0, under_way_ = 0, revision_ = 0;
 };
 
 /// The names of a world's materials, then those of the shipped ones that it lacks.

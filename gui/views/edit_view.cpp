@@ -31,7 +31,15 @@ class EditView final : public View {
   void draw_saving(const Frame& frame);
 
   std::shared_ptr<Editing> editing_ = std::make_shared<Editing>();
+  void filter();
+
   std::array<char, 128> filter_{};
+  std::vector<std::uint32_t> listed_;  ///< that pass the filter
+  std::string listed_filter_;
+  std::uint64_t listed_revision_ = 0;  ///< of the editor's world; 0: not listed yet
+  Section section_;                    ///< of the selected solid, with its form
+  SolidForm form_;
+  std::uint64_t form_revision_ = 0;
   Typing typing_;
   std::string refused_key_, refused_;  ///< of the selected solid
   std::optional<std::uint32_t> shown_; ///< the solid whose form was drawn last
@@ -117,22 +125,31 @@ void EditView::draw_row(const Frame& frame, std::uint32_t i) {
   ImGui::PopID();
 }
 
+/// Anew only if something changed: there may be a million solids.
+void EditView::filter() {
+  const Editor& editor = editing_->editor;
+  if (listed_revision_ == editor.revision() && listed_filter_ == filter_.data()) return;
+  listed_revision_ = editor.revision();
+  listed_filter_ = filter_.data();
+  listed_.clear();
+  const World& world = editor.world();
+  Key words;
+  for (std::uint32_t i = 0; i < world.solids.size(); ++i) {
+    if (!listed_filter_.empty()) {
+      words.name = kind_of(world.solids[i]);
+      words.help = world.materials[world.solids[i].material].name;
+      if (!matches(listed_filter_, world.solids[i].name, words)) continue;
+    }
+    listed_.push_back(i);
+  }
+}
+
 void EditView::list_solids(const Frame& frame) {
   const World& world = editing_->editor.world();
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.6f);
   ImGui::InputTextWithHint("##filter", "filter by name, type or material", filter_.data(), filter_.size());
-  std::vector<std::uint32_t> shown;
-  for (std::uint32_t i = 0; i < world.solids.size(); ++i) {
-    // The words are looked for in the name, the type and the material.
-    const Solid& solid = world.solids[i];
-    Key words;
-    if (filter_[0] != '\0') {
-      words.name = kind_of(solid);
-      words.help = world.materials[solid.material].name;
-      if (!matches(filter_.data(), solid.name, words)) continue;
-    }
-    shown.push_back(i);
-  }
+  filter();
+  const std::vector<std::uint32_t>& shown = listed_;
   ImGui::SameLine();
   ImGui::TextDisabled("%d of %d", static_cast<int>(shown.size()), static_cast<int>(world.solids.size()));
   const float height = std::min(static_cast<float>(shown.size() + 2), 12.0f) * ImGui::GetTextLineHeightWithSpacing();
@@ -170,7 +187,8 @@ void EditView::change(const Frame& frame, std::uint32_t at, const Section& secti
 
 void EditView::draw_form(const Frame& frame) {
   Editor& editor = editing_->editor;
-  if (shown_ != frame.desk.solid) refused_.clear();
+  const bool other = shown_ != frame.desk.solid;
+  if (other) refused_.clear();
   shown_ = frame.desk.solid;
   if (!shown_ || *shown_ >= editor.world().solids.size()) return ImGui::TextDisabled("No solid is selected.");
   const std::uint32_t at = *shown_;
@@ -182,15 +200,17 @@ void EditView::draw_form(const Frame& frame) {
   }
   post_edits(frame, *editing_);
   if (frame.desk.solid != at) return;
-  // A copy: what is typed changes the world under it.
-  const Solid solid = editor.world().solids[at];
-  const Section section = solid_section(solid);
-  const SolidForm form = form_of(editor.world(), solid);
+  // A copy, for what is typed changes the world under it; and made once, for a map may be large.
+  if (other || form_revision_ != editor.revision()) {
+    section_ = solid_section(editor.world().solids[at]);
+    form_ = form_of(editor.world(), editor.world().solids[at]);
+    form_revision_ = editor.revision();
+  }
   if (!ImGui::BeginTable("solid", 2, ImGuiTableFlags_SizingStretchProp)) return;
   ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthStretch, 0.35f);
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.65f);
-  for (const Key& key : section.keys) {
-    const Value now = key.get(&form);
+  for (const Key& key : section_.keys) {
+    const Value now = key.get(&form_);
     ImGui::PushID(key.name.c_str());
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -200,7 +220,7 @@ void EditView::draw_form(const Frame& frame) {
     ImGui::TableNextColumn();
     Key shown = key;
     if (key.name == "material") shown.choices = material_names(editor.world());
-    if (const auto typed = key_widget(shown, now, typing_)) change(frame, at, section, key, *typed);
+    if (const auto typed = key_widget(shown, now, typing_)) change(frame, at, section_, key, *typed);
     if (!refused_.empty() && refused_key_ == key.name) {
       ImGui::PushStyleColor(ImGuiCol_Text, frame.colours.warning);
       ImGui::TextWrapped("%s", refused_.c_str());
@@ -209,7 +229,7 @@ void EditView::draw_form(const Frame& frame) {
     ImGui::PopID();
   }
   ImGui::EndTable();
-  if (solid.motion) ImGui::TextDisabled("It moves; its way is moved in the plan.");
+  if (form_.solid.motion) ImGui::TextDisabled("It moves; its way is moved in the plan.");
 }
 
 void EditView::draw_saving(const Frame& frame) {
@@ -241,10 +261,14 @@ void EditView::draw(const Frame& frame) {
   escape(frame);
   use_edit_keys(frame, *editing_);
   draw_tools(frame);
+  ImGui::BeginDisabled(editor.undoable() == 0);
   if (ImGui::Button("Undo")) editor.undo();
+  ImGui::EndDisabled();
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Ctrl+Z: %d", static_cast<int>(editor.undoable()));
   ImGui::SameLine();
+  ImGui::BeginDisabled(editor.redoable() == 0);
   if (ImGui::Button("Redo")) editor.redo();
+  ImGui::EndDisabled();
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Ctrl+Y: %d", static_cast<int>(editor.redoable()));
   post_edits(frame, *editing_);
   draw_new_keys();

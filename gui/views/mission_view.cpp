@@ -113,7 +113,7 @@ void MissionView::draw_key(const Frame& frame, KeyPlace at, const Key& key) {
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", key.unit.c_str());
-  if (now != usual && given && !std::holds_alternative<std::monostate>(usual) && !key.required) {
+  if (now != usual && given && !std::holds_alternative<std::monostate>(usual) && (key.kind != KeyKind::text || !key.choices.empty())) {
     ImGui::SameLine();
     if (ImGui::SmallButton("default")) change(frame, at, to_toml(usual));
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", to_toml(usual).c_str());

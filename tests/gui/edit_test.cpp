@@ -233,6 +233,41 @@ TEST_CASE("editor: keys of a solid are judged as those of a world file are") {
   CHECK(typed("points_m", "[[0, 0]]").error().message.find("expected two or more") != std::string::npos);
 }
 
+TEST_CASE("edit view: a solid that is clicked in the list is selected, and a number typed in its form changes it") {
+  Screen screen;
+  const auto view = make_edit_view();
+  Runner runner;
+  auto now = opened(runner, "foliage_wall/bug2");
+  const auto frame = [&] { screen.draw(*now, [&](const Frame& f) { view->draw(f); }); };
+  const auto click = [&](const ImVec2& at) {
+    screen.mouse(at, false), frame();
+    screen.mouse(at, true), frame();
+    screen.mouse(at, false), frame();
+  };
+  std::set<std::uint32_t> chosen;
+  for (float y = 60.0f; y < 300.0f && chosen.size() < 3; y += 7.0f) {
+    click({100.0f, y});
+    if (screen.desk.solid) chosen.insert(*screen.desk.solid);
+  }
+  REQUIRE(chosen.size() == 3);
+  CHECK(screen.posted.empty());
+  // All fields under the list, as the mouse would find them.
+  bool resized = false;
+  for (float y = 200.0f; y < 500.0f && !resized; y += 7.0f) {
+    click({600.0f, y});
+    ImGui::GetIO().AddInputCharactersUTF8("0.625");
+    frame();
+    screen.key(257, true), frame();
+    screen.key(257, false), frame();
+    if (screen.posted.empty()) continue;
+    now = screen.pass_on(runner);
+    REQUIRE(screen.desk.solid);
+    const auto* sphere = std::get_if<Sphere>(&now->simulation->scene().world().solids[*screen.desk.solid].shape);
+    resized = sphere && sphere->radius == 0.625;
+  }
+  CHECK(resized);
+}
+
 TEST_CASE("edit view: drawn with nothing open, and for every shipped world and mission") {
   Screen screen;
   const auto view = make_edit_view();

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -228,6 +229,39 @@ TEST_CASE("form: a mission that was changed while it ran, saved and run headless
   REQUIRE(now->simulation->verdict());
   CHECK(headless->verdict()->reason == now->simulation->verdict()->reason);
   CHECK(state_hash(*headless) == state_hash(*now->simulation));
+}
+
+TEST_CASE("mission view: what is typed in a field and entered is posted, and what the reader would refuse is not") {
+  Screen screen;
+  const auto view = make_mission_view();
+  Runner runner;
+  runner.post(Open{"rooms/u", {}});
+  const auto now = runner.settled();
+  const auto frame = [&] { screen.draw(*now, [&](const Frame& f) { view->draw(f); }); };
+  const auto type_everywhere = [&](const char* text) {
+    std::vector<Mission> posted;
+    // Whatever is in the column of values, from top to bottom: as the mouse would.
+    for (float y = 80.0f; y < 590.0f; y += 7.0f) {
+      const ImVec2 at{450.0f, y};
+      screen.mouse(at, false), frame();
+      screen.mouse(at, true), frame();
+      screen.mouse(at, false), frame();
+      ImGui::GetIO().AddInputCharactersUTF8(text);
+      frame();
+      for (const int key : {257, 256}) {
+        screen.key(key, true), frame();
+        screen.key(key, false), frame();
+      }
+    }
+    for (const Action& action : screen.posted)
+      if (const auto* change = std::get_if<ChangeMission>(&action)) posted.push_back(change->mission);
+    screen.posted.clear();
+    return posted;
+  };
+  const auto good = type_everywhere("0.125");
+  CHECK(std::ranges::any_of(good, [](const Mission& m) { return m.step_s == 0.125; }));
+  const auto bad = type_everywhere("-3");
+  CHECK(std::ranges::none_of(bad, [](const Mission& m) { return m.step_s < 0.0 || m.seed < 0; }));
 }
 
 TEST_CASE("mission view: drawn with nothing open, and for every shipped mission") {
