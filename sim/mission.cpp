@@ -7,6 +7,7 @@
 #include "overrides.hpp"
 #include "thicket/base/files.hpp"
 #include "thicket/base/text.hpp"
+#include "thicket/sim/mission_parts.hpp"
 
 namespace thicket {
 namespace {
@@ -267,6 +268,14 @@ Result<Mission> read_mission(const std::filesystem::path& file, const std::vecto
   return mission;
 }
 
+namespace {
+
+std::string sensor_entry(const SensorSpec& sensor) {
+  return fmt::format("type = {}\n{}", toml_string(sensor_type(sensor)), write_section(sensor_section(sensor), sensor_object(sensor)));
+}
+
+}  // namespace
+
 std::string write_mission(const Mission& mission) {
   Mission copy = mission;
   copy.world = portable_name(mission.world_file);
@@ -275,7 +284,7 @@ std::string write_mission(const Mission& mission) {
   std::string text = "# Fully resolved: running this file again gives the same result.\n" + write_section(header_section(), &copy);
   for (const Part& part : parts()) text += fmt::format("\n[{}]\n{}", part.key, write_section(part.section(), part.object(copy)));
   for (const SensorSpec& sensor : mission.sensors)
-    text += fmt::format("\n[[sensor]]\ntype = {}\n{}", toml_string(sensor_type(sensor)), write_section(sensor_section(sensor), sensor_object(sensor)));
+    text += "\n[[sensor]]\n" + sensor_entry(sensor);
   return text;
 }
 
@@ -313,6 +322,56 @@ std::vector<std::size_t> bumper_sensors(const Mission& mission) {
   for (std::size_t i = 0; i < mission.sensors.size(); ++i)
     if (i == 0 || (std::holds_alternative<LobeRadarSpec>(mission.sensors[0]) && std::holds_alternative<LobeRadarSpec>(mission.sensors[i]))) chosen.push_back(i);
   return chosen;
+}
+
+namespace {
+
+void put_at(Node& node, const Place& place) {
+  node.place = node.key_place = place;
+  if (auto* array = std::get_if<Node::Array>(&node.content))
+    for (Node& item : *array) put_at(item, place);
+  if (auto* table = std::get_if<Node::Table>(&node.content))
+    for (auto& [name, item] : *table) put_at(item, place);
+}
+
+/// What the reader says of a sensor's keys together: it is asked.
+void check_sensor(const SensorSpec& sensor, Faults& faults) {
+  auto entry = parse_document(sensor_entry(sensor), "sensor");
+  if (!entry) return faults.take(entry.error());
+  put_at(*entry, {"sensor " + mounted(sensor).name, 0, 0});
+  read_sensor(*entry, faults);
+}
+
+}  // namespace
+
+std::vector<MissionPart> mission_parts(Mission& mission) {
+  static const SectionOf<Mission> header = header_section();
+  std::vector<MissionPart> list = {{"mission", &header, &mission}};
+  for (const Part& part : parts()) list.push_back({part.key, &part.section(), part.object(mission)});
+  for (SensorSpec& sensor : mission.sensors) list.push_back({"sensor " + mounted(sensor).name, &sensor_section(sensor), sensor_object(sensor)});
+  return list;
+}
+
+Result<Mission> reconsidered_mission(const Mission& was, Mission is, const std::filesystem::path& mission_file) {
+  Node root;
+  root.content = Node::Table{};
+  root.place = {"mission", 0, 0};
+  Faults faults;
+  const auto find = [&](const char* key, const std::string& before, const std::string& name, std::filesystem::path& file) {
+    if (name == before) return;
+    file = name.empty() ? std::filesystem::path() : locate(nullptr, (mission_file.parent_path() / name).string(), {});
+    if (file.empty() && !name.empty()) file = locate(nullptr, name, {});
+    if (file.empty() && !name.empty()) faults.add(root.place, fmt::format("'{}' is '{}', expected a file, by a path relative to the mission's, or a shipped one", key, name));
+  };
+  find("world", was.world, is.world, is.world_file);
+  find("world_image", was.world_image, is.world_image, is.image_file);
+  find("map.initial", was.map.initial, is.map.initial, is.initial_map_file);
+  if (is.world.empty()) faults.add(root.place, "'world' is empty, expected a world file or map_server YAML");
+  for (std::size_t i = 0; i < is.sensors.size(); ++i)
+    if (i >= was.sensors.size() || sensor_entry(was.sensors[i]) != sensor_entry(is.sensors[i])) check_sensor(is.sensors[i], faults);
+  if (faults.none()) check_together(root, is, faults);
+  if (!faults.none()) return faults.error();
+  return is;
 }
 
 Result<World> read_mission_world(const Mission& mission) {

@@ -1,17 +1,205 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+
+#include "../core/editor.hpp"
+#include "../core/mission_form.hpp"
 #include "../view.hpp"
+#include "key_widget.hpp"
+#include "thicket/base/files.hpp"
 
 namespace thicket::gui {
 namespace {
+
+/// Whether a key says which world it is: then the run goes on in that.
+bool concerns_world(const Key& key, std::size_t part) { return part == 0 && key.name.starts_with("world"); }
 
 class MissionView final : public View {
  public:
   const char* name() const override { return "Mission"; }
   void draw(const Frame& frame) override;
+
+ private:
+  void follow(const Snapshot& now);
+  void draw_part(const Frame& frame, std::size_t part, bool searching);
+  void draw_key(const Frame& frame, KeyPlace at, const Key& key);
+  void change(const Frame& frame, KeyPlace at, const std::optional<std::string>& typed);
+  void draw_saving(const Frame& frame);
+  void save(const Frame& frame);
+
+  Mission mission_, opened_, defaults_;   ///< as it runs, as it was when the file was opened, and without anything given
+  std::vector<MissionPart> parts_, opened_parts_, default_parts_;
+  std::filesystem::path file_;
+  std::uint64_t revision_ = ~std::uint64_t{0};
+  const Stage* stage_ = nullptr;
+  std::array<char, 128> search_{};
+  bool only_changed_ = false;
+  Typing typing_;
+  std::string refused_key_, refused_;     ///< the key whose typed value was refused, and why
+  std::string save_as_, save_world_as_, saved_;
+  bool save_failed_ = false;
 };
+
+/// Takes over what runs: nothing of it is kept but for comparing.
+void MissionView::follow(const Snapshot& now) {
+  const Stage* stage = &now.simulation->stage();
+  if (stage == stage_ && revision_ == now.run_revision && file_ == now.file) return;
+  mission_ = now.simulation->mission();
+  defaults_ = defaults_of(mission_);
+  if (stage_ == nullptr || file_ != now.file || !now.mission_changed) opened_ = mission_;
+  if (stage_ == nullptr || file_ != now.file) {
+    refused_.clear();
+    saved_.clear();
+    // What is shipped is not written over.
+    const bool own = is_mission(now.file) && find_shipped(std::filesystem::path(portable_name(now.file))).empty();
+    const std::filesystem::path target = own ? now.file : std::filesystem::current_path() / (now.file.stem().string() + "_mission.toml");
+    save_as_ = target.string();
+    save_world_as_ = (target.parent_path() / (now.file.stem().string() + "_world.toml")).string();
+  }
+  parts_ = mission_parts(mission_);
+  opened_parts_ = mission_parts(opened_);
+  default_parts_ = mission_parts(defaults_);
+  stage_ = stage;
+  revision_ = now.run_revision;
+  file_ = now.file;
+}
+
+void MissionView::change(const Frame& frame, KeyPlace at, const std::optional<std::string>& typed) {
+  const Key& key = parts_[at.part].section->keys[at.key];
+  refused_.clear();
+  const auto next = with_key(mission_, file_, at, typed);
+  auto refuse = [&](const Error& error) {
+    refused_key_ = parts_[at.part].title + "." + key.name;
+    refused_ = error.message;
+  };
+  if (!next) return refuse(next.error());
+  if (!concerns_world(key, at.part)) return frame.post(ChangeMission{*next});
+  auto world = read_mission_world(*next);
+  if (!world) return refuse(world.error());
+  frame.post(ChangeMission{*next});
+  frame.post(ChangeWorld{std::move(*world)});
+}
+
+void MissionView::draw_key(const Frame& frame, KeyPlace at, const Key& key) {
+  const Value now = key.get(parts_[at.part].object), usual = key.get(default_parts_[at.part].object);
+  const bool changed = at.part < opened_parts_.size() && opened_parts_[at.part].section->keys.size() > at.key && key.get(opened_parts_[at.part].object) != now;
+  ImGui::PushID(static_cast<int>(at.key));
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  ImGui::PushStyleColor(ImGuiCol_Text, changed ? frame.colours.selected : now != usual ? frame.colours.text : frame.colours.faint);
+  ImGui::Text("%s%s", changed ? "* " : "", key.name.c_str());
+  ImGui::PopStyleColor();
+  key_tooltip(key, usual);
+  ImGui::TableNextColumn();
+  const bool given = !std::holds_alternative<std::monostate>(now);
+  if (std::holds_alternative<std::monostate>(usual)) {
+    bool want = given;
+    if (ImGui::Checkbox("##given", &want)) {
+      if (!want) change(frame, at, std::nullopt);
+      else change(frame, at, first_value(key));
+    }
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("given, or not");
+    ImGui::SameLine();
+  }
+  if (given) {
+    if (const auto typed = key_widget(key, now, typing_)) change(frame, at, typed);
+  } else {
+    ImGui::TextDisabled("not given");
+  }
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%s", key.unit.c_str());
+  if (now != usual && given && !std::holds_alternative<std::monostate>(usual) && (key.kind != KeyKind::text || !key.choices.empty())) {
+    ImGui::SameLine();
+    if (ImGui::SmallButton("default")) change(frame, at, to_toml(usual));
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", to_toml(usual).c_str());
+  }
+  if (!refused_.empty() && refused_key_ == parts_[at.part].title + "." + key.name) {
+    ImGui::TableNextRow();
+    ImGui::TableSetColumnIndex(1);
+    ImGui::PushStyleColor(ImGuiCol_Text, frame.colours.warning);
+    ImGui::TextWrapped("%s", refused_.c_str());
+    ImGui::PopStyleColor();
+  }
+  ImGui::PopID();
+}
+
+void MissionView::draw_part(const Frame& frame, std::size_t part, bool searching) {
+  const MissionPart& p = parts_[part];
+  std::vector<std::size_t> shown;
+  for (std::size_t k = 0; k < p.section->keys.size(); ++k) {
+    const Key& key = p.section->keys[k];
+    if (only_changed_ && key.get(p.object) == key.get(default_parts_[part].object)) continue;
+    if (matches(search_.data(), p.title, key)) shown.push_back(k);
+  }
+  if (shown.empty()) return;
+  if (searching) ImGui::SetNextItemOpen(true);
+  else ImGui::SetNextItemOpen(part == 0 || p.title == "planner", ImGuiCond_Once);
+  const bool open = ImGui::CollapsingHeader(p.title.c_str());
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", p.section->help.c_str());
+  if (!open || !ImGui::BeginTable("keys", 3, ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingStretchProp)) return;
+  ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthStretch, 0.40f);
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.45f);
+  ImGui::TableSetupColumn("unit", ImGuiTableColumnFlags_WidthStretch, 0.15f);
+  for (const std::size_t k : shown) draw_key(frame, {part, k}, p.section->keys[k]);
+  ImGui::EndTable();
+}
+
+void MissionView::save(const Frame& frame) {
+  const Simulation& run = *frame.now.simulation;
+  const auto done = save_mission(run.mission(), run.scene().world(), save_as_, save_world_as_);
+  save_failed_ = !done;
+  if (!done) {
+    saved_ = done.error().message;
+    return;
+  }
+  saved_ = fmt::format("saved {}{}", done->mission.string(), done->world.empty() ? "" : " and its world " + done->world.string());
+  // From now on it runs in the world that the file names.
+  if (!done->world.empty()) frame.post(ChangeMission{in_world_file(run.mission(), done->world)});
+}
+
+void MissionView::draw_saving(const Frame& frame) {
+  std::error_code ignored;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 6.0f * ImGui::GetFontSize());
+  text_field("mission##file", save_as_, typing_);
+  if (frame.now.world_changed) {
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 6.0f * ImGui::GetFontSize());
+    text_field("world##file", save_world_as_, typing_);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("The world was edited: it is saved too, and the mission names it.");
+  }
+  const bool exists = std::filesystem::exists(save_as_, ignored);
+  const char* label = frame.now.world_changed ? (exists ? "Save mission and world (overwrite)###save" : "Save mission and world###save") : (exists ? "Save mission (overwrite)###save" : "Save mission###save");
+  if (ImGui::Button(label)) save(frame);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Every key is written; `thicket run` gives the result that Reset and Play give here.");
+  if (saved_.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, save_failed_ ? frame.colours.warning : frame.colours.text);
+  ImGui::TextWrapped("%s", saved_.c_str());
+  ImGui::PopStyleColor();
+}
 
 void MissionView::draw(const Frame& frame) {
   if (!frame.now.simulation) return ImGui::TextUnformatted("Nothing is open.");
-  ImGui::Text("%.2f s", frame.now.simulation->time());
+  follow(frame.now);
+  draw_saving(frame);
+  ImGui::Separator();
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
+  ImGui::InputTextWithHint("##search", "search keys", search_.data(), search_.size());
+  ImGui::SameLine();
+  ImGui::Checkbox("not default", &only_changed_);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("only keys that are not at their default");
+  const bool searching = search_[0] != '\0' || only_changed_;
+  if (ImGui::BeginChild("keys")) {
+    for (std::size_t part = 0; part < parts_.size(); ++part) {
+      ImGui::PushID(static_cast<int>(part));
+      draw_part(frame, part, searching);
+      ImGui::PopID();
+    }
+  }
+  ImGui::EndChild();
 }
 
 }  // namespace
