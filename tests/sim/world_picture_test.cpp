@@ -183,8 +183,8 @@ TEST_CASE("pixels: the solid's colour and its distance in the middle, sky and no
     REQUIRE(pixels.size() == 81 * 61);
     const std::size_t middle = 30 * 81 + 40, corner = 0;
     const auto channel = [&](std::size_t pixel, int shift) { return static_cast<int>(pixels[pixel] >> shift & 255u); };
-    CHECK(channel(middle, 16) > 2 * channel(middle, 0));
-    CHECK(channel(middle, 16) > 2 * channel(middle, 8));
+    CHECK(2 * channel(middle, 16) > 3 * channel(middle, 0));
+    CHECK(2 * channel(middle, 16) > 3 * channel(middle, 8));
     CHECK(channel(corner, 0) >= channel(corner, 16));
     CHECK(depth[middle] == doctest::Approx(9.0).epsilon(1e-6));
     CHECK(depth[corner] == std::numeric_limits<float>::infinity());
