@@ -98,7 +98,7 @@ void Polar::draw(const Frame& frame, const Scan& scan, double most, bool decibel
     }
   draw.AddLine(centre, place(scan.beams[beam].azimuth, scan.range_max), frame.colours.selected);
   draw.AddTriangleFilled({centre.x, centre.y - 5.0f}, {centre.x - 3.5f, centre.y + 4.0f}, {centre.x + 3.5f, centre.y + 4.0f}, frame.colours.robot);
-  draw.AddText(corner, frame.colours.text, "about the sensor, forward is up (m); a click chooses a beam");
+  draw.AddText(corner, frame.colours.text, frame.still ? "about the sensor, forward is up (m)" : "about the sensor, forward is up (m); a click chooses a beam");
 
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const double ahead = static_cast<double>(centre.y - mouse.y), left = static_cast<double>(centre.x - mouse.x);

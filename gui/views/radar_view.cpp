@@ -34,6 +34,9 @@ void RadarView::choose_sensor(const Simulation& simulation) {
 }
 
 void RadarView::choose_beam(const Frame& frame, const Scan& scan) {
+  // Another sensor begins with the beam that looks ahead.
+  if (beam_of_ != sensor_) beam_ = nearest_beam(scan, 0.0);
+  beam_of_ = sensor_;
   beam_ = std::min(beam_, scan.beams.size() - 1);
   if (scan.beams.size() > 1) {
     int chosen = static_cast<int>(beam_);

@@ -1,6 +1,8 @@
 // The radar view's class, for its maker and its tests. Private to the room.
 #pragma once
 
+#include <optional>
+
 #include "polar.hpp"
 #include "waterfall.hpp"
 
@@ -22,6 +24,7 @@ class RadarView final : public View {
   void read_out(const Frame& frame, const Scan& scan, const Chart& chart) const;
 
   std::size_t sensor_ = 0, beam_ = 0;
+  std::optional<std::size_t> beam_of_;  ///< the sensor that the beam was chosen of
   bool decibel_ = false;
   Waterfall waterfall_;
   Polar polar_;

@@ -86,7 +86,7 @@ void Waterfall::upload(const Frame& frame, bool decibel) {
   const int width = static_cast<int>(columns_);
   frame.textures.get("waterfall", width, most_rows, fresh);
   // The brightest colour keeps its meaning until something is brighter, or all has become much darker.
-  const double most = std::max(most_rows > 0 ? this->most() : 0.0, 1e-9);
+  const double most = std::max(this->most(), 1e-9);
   if (most > top_ || most < 0.25 * top_ || decibel != was_decibel_) {
     top_ = 1.2 * most;
     was_decibel_ = decibel;
@@ -110,19 +110,24 @@ void Waterfall::upload(const Frame& frame, bool decibel) {
 }
 
 void Waterfall::draw(const Frame& frame, ImVec2 size, bool decibel) {
-  const Chart chart = begin_chart(frame, "waterfall", size, range_, {-static_cast<double>(most_rows), 0.0}, "range (m)", "scans, the newest on top");
+  // Few rows are drawn high.
+  int shown = most_rows / 4;
+  while (shown < static_cast<int>(rows_.size())) shown *= 2;
+  const Chart chart = begin_chart(frame, "waterfall", size, range_, {-static_cast<double>(shown), 0.0}, "range (m)", "scans, the newest on top");
   if (!rows_.empty()) {
     upload(frame, decibel);
     bool fresh = false;
     const ImTextureID texture = frame.textures.get("waterfall", static_cast<int>(columns_), most_rows, fresh);
-    const float row_height = (chart.high.y - chart.low.y) / static_cast<float>(most_rows);
+    const float row_height = (chart.high.y - chart.low.y) / static_cast<float>(shown);
     // The texture is a ring: from the newest row upward to its first, then from its last.
-    const float newest = static_cast<float>(rows_.front().slot + 1);
-    const float seam = chart.low.y + newest * row_height;
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const int count = static_cast<int>(rows_.size()), newest = rows_.front().slot + 1, before = std::min(count, newest), after = count - before;
+    const auto part = [&](int above, int rows, int last) {
+      const float top = chart.low.y + static_cast<float>(above) * row_height;
+      ImGui::GetWindowDrawList()->AddImage(texture, {chart.low.x, top}, {chart.high.x, top + static_cast<float>(rows) * row_height}, {0.0f, static_cast<float>(last) / most_rows}, {1.0f, static_cast<float>(last - rows) / most_rows});
+    };
     if (texture) {
-      draw.AddImage(texture, chart.low, {chart.high.x, seam}, {0.0f, newest / most_rows}, {1.0f, 0.0f});
-      if (newest < most_rows) draw.AddImage(texture, {chart.low.x, seam}, chart.high, {0.0f, 1.0f}, {1.0f, newest / most_rows});
+      part(0, before, newest);
+      if (after > 0) part(before, after, most_rows);
     }
     read_out(frame, chart, row_height);
   }

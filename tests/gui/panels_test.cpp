@@ -173,7 +173,7 @@ TEST_CASE("ticks are round, as many as are asked for, and inside") {
   check(0.0, 10.0, 6, 2.0, 6);
   check(0.0, 10.0, 11, 1.0, 11);
   check(-0.37, 0.41, 5, 0.2, 5 - 1);
-  check(0.0, 3600.0, 8, 1000.0, 4);
+  check(0.0, 3600.0, 8, 500.0, 8);
   check(1e6, 1e6 + 0.5, 6, 0.1, 6);
   CHECK(nice_ticks(1.0, 1.0, 5).at.empty());
   CHECK(nice_ticks(0.0, infinity, 5).at.empty());
