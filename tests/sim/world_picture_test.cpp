@@ -170,4 +170,41 @@ TEST_CASE("a picture that cannot be drawn is refused in words") {
   CHECK_FALSE(std::filesystem::exists(folder.path() / "p.png"));
 }
 
+TEST_CASE("pixels: the solid's colour and its distance in the middle, sky and no distance elsewhere") {
+  const Scene scene = scene_of(world_of("red_paint", Box{{2.0, 2.0, 2.0}}));
+  PictureView view = level();
+  view.width = 81;
+  view.height = 61;
+  for (const int samples : {1, 4}) {
+    CAPTURE(samples);
+    std::vector<std::uint32_t> pixels;
+    std::vector<float> depth;
+    REQUIRE(draw_world_pixels(scene, view, samples, pixels, &depth));
+    REQUIRE(pixels.size() == 81 * 61);
+    const std::size_t middle = 30 * 81 + 40, corner = 0;
+    const auto channel = [&](std::size_t pixel, int shift) { return static_cast<int>(pixels[pixel] >> shift & 255u); };
+    CHECK(2 * channel(middle, 16) > 3 * channel(middle, 0));
+    CHECK(2 * channel(middle, 16) > 3 * channel(middle, 8));
+    CHECK(channel(corner, 0) >= channel(corner, 16));
+    CHECK(depth[middle] == doctest::Approx(9.0).epsilon(1e-6));
+    CHECK(depth[corner] == std::numeric_limits<float>::infinity());
+    // Ten columns from the middle: the ray of that pixel, to the front at y = -1.
+    const PictureCamera camera(view);
+    const glm::dvec3 ray = camera.direction(2.0 * 50.5 / 81.0 - 1.0, 0.0);
+    CHECK(depth[middle + 10] == doctest::Approx(9.0 / ray.y).epsilon(1e-6));
+  }
+  std::vector<std::uint32_t> pixels;
+  CHECK_FALSE(draw_world_pixels(scene, view, 3, pixels));
+}
+
+TEST_CASE("a camera sees points where its rays go") {
+  PictureView view = level();
+  view.from = glm::dvec3(3.0, -7.0, 4.0);
+  const PictureCamera camera(view);
+  const glm::dvec3 seen = camera.seen(*view.from + 5.0 * camera.direction(0.3, -0.8));
+  CHECK(seen.x == doctest::Approx(0.3));
+  CHECK(seen.y == doctest::Approx(-0.8));
+  CHECK(camera.seen(*view.at).z == doctest::Approx(glm::distance(*view.from, *view.at)));
+}
+
 }  // namespace thicket

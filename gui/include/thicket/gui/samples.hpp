@@ -43,6 +43,8 @@ class Samples {
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   const Sample& operator[](std::size_t i) const { return (*chunks_[i / chunk_size])[i % chunk_size]; }
+  /// Samples i * chunk_size and those after it. Once it is full it never changes: other samples are in another chunk, for as long as somebody holds this one.
+  std::shared_ptr<const std::vector<Sample>> chunk(std::size_t i) const { return chunks_[i]; }
   const Sample& back() const { return (*this)[size_ - 1]; }
   /// How many have a step up to this.
   std::size_t count_until(std::uint64_t step) const;
