@@ -175,6 +175,21 @@ void add_score(CLI::App& app, ScoreArguments& a) {
   app.add_flag("--json", a.json, "print all figures as JSON");
 }
 
+void add_gui(CLI::App& app, GuiArguments& a) {
+  app.add_option("file", a.file, "mission or world file; shipped ones are found from any directory. Without one the window asks")->type_name("MISSION|WORLD");
+  app.add_option("--report", a.report, "at the end, write how the session ended as JSON: file, mission, steps, time, goal, position, verdict, frames, milliseconds a frame, OpenGL errors")->type_name("FILE.json");
+  app.footer("F1 in the window shows every key. It needs a screen (DISPLAY or WAYLAND_DISPLAY); `thicket render` needs none.\nExit codes: 0 closed, 2 bad usage or file, or no screen.");
+}
+
+void add_render(CLI::App& app, RenderArguments& a) {
+  app.add_option("file", a.file, "mission or world file, or the folder of a run, which is simulated once more")->required()->type_name("MISSION|RUN_DIR");
+  app.add_option("--view", a.view, "world, 3d, map, radar, mission, edit, planner, plots, profiler, or all: the whole window")->capture_default_str()->type_name("NAME");
+  app.add_option("--at", a.at, "simulated seconds (default: the end of the run, which also comes where it ends before)")->type_name("S");
+  app.add_option("--out", a.out, "picture to write")->required()->type_name("FILE.png");
+  app.add_option("--size", a.size, "pixels")->capture_default_str()->type_name("WIDTHxHEIGHT");
+  app.add_flag("--light", a.light, "dark on light");
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app{"Thicket simulates robots that find their way by radar."};
   app.name("thicket");
@@ -186,7 +201,7 @@ int dispatch(int argc, char** argv) {
              "Exit codes of run: 0 reached, 1 internal error, 2 bad usage or file, 3 unreachable, 4 stopped, 5 collided.");
 
   RunArguments arguments;
-  MissionFlags run_flags, check_flags;
+  MissionFlags run_flags, check_flags, gui_flags, render_flags;
   CLI::App& run = *app.add_subcommand("run", "run a mission and leave its results in a folder");
   run.add_option("mission", arguments.mission, "mission file; shipped ones are found from any directory. Without one: --world, --start, --goal, --planner")->type_name("FILE");
   run_flags.add_to(run);
@@ -196,6 +211,15 @@ int dispatch(int argc, char** argv) {
   run.add_flag("--quiet", arguments.quiet, "no progress, no warnings, no summary");
   run.add_flag("--json", arguments.json, "print result.json instead of the summary");
   run.add_flag("--score", arguments.score, "judge the map by the world itself: score.json, and the headline in result.json; as [output] score = true");
+
+  GuiArguments gui_arguments;
+  CLI::App& gui = *app.add_subcommand("gui", "open the window: see what the robot sees, touch it, try again");
+  add_gui(gui, gui_arguments);
+  gui_flags.add_to(gui);
+  RenderArguments render_arguments;
+  CLI::App& render = *app.add_subcommand("render", "draw a view of the window as a picture, without a screen");
+  add_render(render, render_arguments);
+  render_flags.add_to(render);
 
   ScoreArguments score_arguments;
   CLI::App& score = *app.add_subcommand("score", "how good the map of a run is, judged by the world itself (exit code 6: the run gives another map than the one in its folder)");
@@ -251,6 +275,12 @@ int dispatch(int argc, char** argv) {
     arguments.overrides = std::move(*overrides);
     if (arguments.score) arguments.overrides.push_back({"output.score", "true", "--score"});
     return run_mission(arguments);
+  }
+  if (gui.parsed() || render.parsed()) {
+    auto overrides = (gui.parsed() ? gui_flags : render_flags).overrides();
+    if (!overrides) return bad_input;
+    gui_arguments.overrides = render_arguments.overrides = std::move(*overrides);
+    return gui.parsed() ? open_window(gui_arguments) : render_views(render_arguments);
   }
   if (score.parsed()) return score_folder(score_arguments);
   if (check.parsed()) {

@@ -117,6 +117,22 @@ struct ReachabilityArguments {
 /// 0: nothing is wrong, 6: something is.
 int study_reachability(const ReachabilityArguments& arguments);
 
+struct GuiArguments {
+  std::string file;  ///< mission or world; empty: the window asks
+  std::vector<Override> overrides;
+  std::string report;  ///< JSON; empty: none
+};
+/// Until the person closes it. A build without THICKET_GUI says so.
+int open_window(const GuiArguments& arguments);
+
+struct RenderArguments {
+  std::string file, view = "world", out, size = "1280x800";  ///< WIDTHxHEIGHT
+  std::vector<Override> overrides;
+  std::optional<double> at;  ///< s; nothing: the end
+  bool light = false;
+};
+int render_views(const RenderArguments& arguments);
+
 int help_topic(const std::string& topic, bool markdown);
 
 // --- what commands share

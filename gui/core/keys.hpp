@@ -1,0 +1,45 @@
+// Every key of the window, in one table: what is done and what F1 shows are read from it.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "../platform/platform.hpp"
+#include "thicket/nav/planner.hpp"
+
+namespace thicket::gui {
+
+/// What a key does.
+enum class Deed {
+  play, back, forward, back_ten, forward_ten, reset, reload, faster, slower, by_hand, next_view, open, save_mission, save_mission_as, screenshot, record, export_map, light, help, quit,
+  drive_forward, drive_back, drive_left, drive_right,
+};
+
+struct KeyBinding {
+  Deed deed;
+  int key;  ///< of GLFW, which for letters and digits is the capital letter's number
+  bool ctrl = false, shift = false;
+  const char* keys;    ///< as people call it; empty: another key for what the row before does
+  const char* help;
+  bool repeats = false;
+  bool held = false;   ///< it does what it does for as long as it is held
+};
+std::span<const KeyBinding> key_table();
+
+/// The name of the key for a deed, for buttons and menus.
+const char* key_of(Deed deed);
+
+/// A press of a key; what it is for. With letters typed into a field, only keys with Ctrl and function keys count.
+std::optional<Deed> deed_of(int key, bool ctrl, bool shift, bool typing);
+
+/// Calls for each deed whose key was pressed in this frame of ImGui.
+void each_pressed(const std::function<void(Deed)>& act);
+/// Whether the key of a deed is held now.
+bool is_held(Deed deed);
+
+/// Where the keys that are held and the stick want the robot to go, as shares of its limits.
+Command hand_command(const Stick& stick, double speed_max, double turn_rate_max);
+
+}  // namespace thicket::gui
