@@ -1,6 +1,6 @@
 // What the sensors' beams did, from above.
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -9,8 +9,6 @@
 
 namespace thicket::gui {
 namespace {
-
-constexpr std::size_t group = 3;  ///< beams that are one where they are too near to one another
 
 /// One way of a beam with one look.
 struct Piece {
@@ -126,49 +124,26 @@ class BeamPainter {
     const auto thick = static_cast<float>(frame_.scale);
     const ImDrawListFlags flags = draw_.Flags;
     // Thin and translucent as they are, soft edges would not be seen, and take a software renderer twice the time.
-    draw_.Flags &= ~(ImDrawListFlags_AntiAliasedLines | ImDrawListFlags_AntiAliasedLinesUseTex | ImDrawListFlags_AntiAliasedFill);
-    const double merged = merged_until();
-    std::array<ImU32, group> colours{};
-    for (std::size_t first = 0; first < scan_.beams.size(); first += group) {
-      const std::size_t count = std::min(group, scan_.beams.size() - first);
-      double low = infinity, high = -infinity, from = merged;
-      for (std::size_t i = 0; i < count; ++i) {
-        const Beam& beam = scan_.beams[first + i];
-        pieces_of(beam, pieces);
-        colours[i] = pieces.empty() ? 0 : pieces[0].colour;
-        if (pieces.empty() || pieces[0].to < merged) from = 0.0;
-        low = std::min(low, beam.azimuth);
-        high = std::max(high, beam.azimuth);
-      }
-      if (high - low > 0.2) from = 0.0;  // not in order
-      for (std::size_t i = 0; i < count; ++i) {
-        const Beam& beam = scan_.beams[first + i];
-        pieces_of(beam, pieces);
-        for (const Piece& piece : pieces)
-          if (piece.to > from) draw_.AddLine(screen(beam, std::max(from, piece.from)), screen(beam, piece.to), piece.colour, thick);
-      }
-      if (from > 0.0) {
-        const double half = 0.5 * (high - low) / static_cast<double>(std::max<std::size_t>(1, count - 1));
-        const double middle = bearing(flat(scan_.beams[first + count / 2])) - scan_.beams[first + count / 2].azimuth;
-        fading(at(middle + low - half, merged), at(middle + high + half, merged), colours[count / 2]);
-      }
+    draw_.Flags &= ~(ImDrawListFlags_AntiAliasedLines | ImDrawListFlags_AntiAliasedLinesUseTex);
+    const double thinned = thinned_until();
+    for (std::size_t i = 0; i < scan_.beams.size(); ++i) {
+      // Every other beam begins where there is room between its neighbours, of the rest every other one at half that range, and so on; whole if it ends there.
+      const Beam& beam = scan_.beams[i];
+      // Not all at one range, which would be seen as a ring that is not there.
+      const double scatter = 0.5 + std::fmod(0.618034 * static_cast<double>(i / 2), 1.0);
+      double from = std::ldexp(scatter * thinned, -std::min(8, std::countr_zero(i | 256u)));
+      if (beam.sensed_range < 1.2 * from) from = 0.0;
+      pieces_of(beam, pieces);
+      for (const Piece& piece : pieces)
+        if (piece.to > from) draw_.AddLine(screen(beam, std::max(from, piece.from)), screen(beam, piece.to), piece.colour, thick);
     }
     draw_.Flags = flags;
   }
-  /// From the sensor to where lines begin, whose share of the plane is a third there.
-  void fading(const ImVec2& a, const ImVec2& b, ImU32 colour) {
-    const ImVec2 white = ImGui::GetFontTexUvWhitePixel();
-    draw_.PrimReserve(3, 3);
-    for (unsigned i = 0; i < 3; ++i) draw_.PrimWriteIdx(static_cast<ImDrawIdx>(draw_._VtxCurrentIdx + i));
-    draw_.PrimWriteVtx(origin_, white, colour);
-    draw_.PrimWriteVtx(a, white, with_alpha(colour, 0.34));
-    draw_.PrimWriteVtx(b, white, with_alpha(colour, 0.34));
-  }
-  /// Up to this range, m, level beams are so near to one another on the screen that few of them can be told apart.
-  double merged_until() const {
-    if (scan_.beams.size() < 4 * group || std::abs(flat(scan_.beams[0]).x) + std::abs(flat(scan_.beams[0]).y) < 0.99) return 0.0;
+  /// Up to this range, m, level beams are so near to one another on the screen that they can hardly be told apart.
+  double thinned_until() const {
+    if (scan_.beams.size() < 16 || std::abs(flat(scan_.beams[0]).x) + std::abs(flat(scan_.beams[0]).y) < 0.99) return 0.0;
     const double step = std::abs(wrap_angle(scan_.beams[1].azimuth - scan_.beams[0].azimuth));
-    return step > 1e-6 && step < 0.1 ? 3.0 / (step * camera_.pixels_per_metre) : 0.0;
+    return step > 1e-6 && step < 0.1 ? 2.2 / (step * camera_.pixels_per_metre) : 0.0;
   }
 
   /// Of beams that the screen cannot tell apart the longest stands for all.
