@@ -26,7 +26,7 @@ class MapView final : public View {
   };
 
   PlanControls controls_;
-  MapPicture map_{"map"};
+  MapPicture map_{"map", MapPicture::unknown_colour};
   bool probability_ = false, score_ = false, over_ = true;
   Beside<Judged> judging_;
   Judged judged_;
@@ -115,7 +115,6 @@ void MapView::draw(const Frame& frame) {
   const PlanCamera& camera = controls_.camera;
   const ImVec2 high{camera.low.x + camera.size.x, camera.low.y + camera.size.y};
   draw.PushClipRect(camera.low, high, true);
-  draw.AddRectFilled(camera.low, high, MapPicture::unknown_colour());
   map_.draw(frame, camera, probability_, 1.0, draw);
   controls_.draw_grid(frame, draw);
   if (over_) {

@@ -60,6 +60,7 @@ struct PlanExtent {
   }
 };
 PlanExtent extent_of(const Snapshot& now);
+PlanExtent seen_by(const PlanCamera& camera);
 
 /// What of a solid is seen from above, in the solid's frame (turned by pitch and roll already).
 struct Footprint {
@@ -109,11 +110,12 @@ class PlanSolids {
 /// The occupancy map as pictures, of which only squares that have changed go to the graphics card.
 class MapPicture {
  public:
-  explicit MapPicture(std::string name) : name_(std::move(name)) {}
+  /// `unknown`: the colour of what was never sensed, over all of the view if it has one.
+  MapPicture(std::string name, ImU32 unknown) : name_(std::move(name)), unknown_(unknown) {}
   void draw(const Frame& frame, const PlanCamera& camera, bool probability, double alpha, ImDrawList& draw);
   std::size_t tiles_sent() const { return sent_; }  ///< squares of 64 x 64 cells in all, for tests
 
-  static ImU32 unknown_colour();
+  static constexpr ImU32 unknown_colour = IM_COL32(0x2f, 0x4b, 0x8f, 255);
 
  private:
   static constexpr int across = 512;  ///< cells along the edge of one picture
@@ -124,9 +126,12 @@ class MapPicture {
     bool all_dirty = true;
   };
   void take(const Frame& frame, bool probability);
+  Chunk& chunk_at(std::int64_t column, std::int64_t row);
+  void fill_around(const PlanCamera& camera, double size, ImDrawList& draw) const;
   void send(const Frame& frame, Chunk& chunk, ImTextureID& texture);
 
   std::string name_;
+  ImU32 unknown_;
   std::shared_ptr<const Simulation> last_;
   bool probability_ = false;
   std::vector<Chunk> chunks_;

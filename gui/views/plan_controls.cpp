@@ -17,13 +17,6 @@ double round_up(double length) {
   return 10.0 * power;
 }
 
-PlanExtent seen_by(const PlanCamera& camera) {
-  PlanExtent all;
-  for (const float x : {0.0f, camera.size.x})
-    for (const float y : {0.0f, camera.size.y}) all.hold(camera.to_world({camera.low.x + x, camera.low.y + y}));
-  return all;
-}
-
 }  // namespace
 
 ImU32 with_alpha(ImU32 colour, double share) {
@@ -68,6 +61,13 @@ PlanExtent extent_of(const Snapshot& now) {
   }
   if (has_goal(now)) all.hold(*mission.planner.goal_m);
   for (const glm::dvec2& p : mission.planner.waypoints_m) all.hold(p);
+  return all;
+}
+
+PlanExtent seen_by(const PlanCamera& camera) {
+  PlanExtent all;
+  for (const float x : {0.0f, camera.size.x})
+    for (const float y : {0.0f, camera.size.y}) all.hold(camera.to_world({camera.low.x + x, camera.low.y + y}));
   return all;
 }
 

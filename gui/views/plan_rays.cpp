@@ -1,5 +1,6 @@
 // What the sensors' beams did, from above.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -31,8 +32,8 @@ class BeamPainter {
     for (const Beam& beam : scan_.beams) farthest = std::max(farthest, beam.sensed_range);
     const double circle = 2.0 * pi * farthest * camera_.pixels_per_metre;
     // Bins of bearings that the screen can tell apart. With more beams than every other bin has, each bin is one wedge.
-    const auto bins = static_cast<std::size_t>(std::clamp(circle / 2.0, 64.0, 4096.0));
-    if (scan_.beams.size() > bins / 3) wedges(bins);
+    const auto bins = static_cast<std::size_t>(std::clamp(circle / 3.0, 64.0, 2048.0));
+    if (scan_.beams.size() > bins) wedges(bins);
     else lines();
   }
 
@@ -121,10 +122,28 @@ class BeamPainter {
   void lines() {
     std::vector<Piece> pieces;
     const auto thick = static_cast<float>(frame_.scale);
-    for (const Beam& beam : scan_.beams) {
+    const ImDrawListFlags flags = draw_.Flags;
+    // Thin and translucent as they are, soft edges would not be seen, and take a software renderer twice the time.
+    draw_.Flags &= ~(ImDrawListFlags_AntiAliasedLines | ImDrawListFlags_AntiAliasedLinesUseTex);
+    const double thinned = thinned_until();
+    for (std::size_t i = 0; i < scan_.beams.size(); ++i) {
+      // Every other beam begins where there is room between its neighbours, of the rest every other one at half that range, and so on; whole if it ends there.
+      const Beam& beam = scan_.beams[i];
+      // Not all at one range, which would be seen as a ring that is not there.
+      const double scatter = 0.5 + std::fmod(0.618034 * static_cast<double>(i / 2), 1.0);
+      double from = std::ldexp(scatter * thinned, -std::min(8, std::countr_zero(i | 256u)));
+      if (beam.sensed_range < 1.2 * from) from = 0.0;
       pieces_of(beam, pieces);
-      for (const Piece& piece : pieces) draw_.AddLine(screen(beam, piece.from), screen(beam, piece.to), piece.colour, thick);
+      for (const Piece& piece : pieces)
+        if (piece.to > from) draw_.AddLine(screen(beam, std::max(from, piece.from)), screen(beam, piece.to), piece.colour, thick);
     }
+    draw_.Flags = flags;
+  }
+  /// Up to this range, m, level beams are so near to one another on the screen that they can hardly be told apart.
+  double thinned_until() const {
+    if (scan_.beams.size() < 16 || std::abs(flat(scan_.beams[0]).x) + std::abs(flat(scan_.beams[0]).y) < 0.99) return 0.0;
+    const double step = std::abs(wrap_angle(scan_.beams[1].azimuth - scan_.beams[0].azimuth));
+    return step > 1e-6 && step < 0.1 ? 2.2 / (step * camera_.pixels_per_metre) : 0.0;
   }
 
   /// Of beams that the screen cannot tell apart the longest stands for all.

@@ -31,7 +31,7 @@ class WorldView final : public View {
   PlanControls controls_;
   /// Tools of the desk may outlive this view, and look at the solids.
   std::shared_ptr<PlanSolids> solids_ = std::make_shared<PlanSolids>();
-  MapPicture map_{"world map"};
+  MapPicture map_{"world map", 0};
   TruthOutline truth_;
   Layers layers_;
   Handles handles_;
@@ -106,7 +106,6 @@ void WorldView::draw(const Frame& frame) {
   const PlanCamera& camera = controls_.camera;
   const ImVec2 high{camera.low.x + camera.size.x, camera.low.y + camera.size.y};
   draw.PushClipRect(camera.low, high, true);
-  draw.AddRectFilled(camera.low, high, frame.colours.background);
   draw_plan(frame, draw);
   if (!frame.still) use_mouse(frame, draw);
   controls_.draw_scale_bar(frame, draw);

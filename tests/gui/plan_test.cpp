@@ -310,7 +310,7 @@ TEST_CASE("plan: of the map only what has changed is sent, and the pictures are 
           const CellView cell = map.view({column * 512 + x, row * 512 + y});
           const std::uint32_t pixel = pixels[static_cast<std::size_t>(y) * 512 + static_cast<std::size_t>(x)];
           known += cell.known;
-          wrong += cell.known ? pixel == 0 || (pixel == IM_COL32(0x11, 0x11, 0x11, 255)) != (cell.probability > 0.5) : pixel != 0;
+          wrong += cell.known ? pixel == MapPicture::unknown_colour || (pixel == IM_COL32(0x11, 0x11, 0x11, 255)) != (cell.probability > 0.5) : pixel != MapPicture::unknown_colour;
         }
     }
     CHECK(wrong == 0);
