@@ -277,10 +277,10 @@ void EditView::draw(const Frame& frame) {
     ImGui::TextWrapped("%s", editor.message.c_str());
     ImGui::PopStyleColor();
   }
+  draw_saving(frame);
+  ImGui::Separator();
   list_solids(frame);
   draw_form(frame);
-  ImGui::Separator();
-  draw_saving(frame);
 }
 
 }  // namespace

@@ -217,6 +217,15 @@ TEST_CASE("editor: a corner that is dragged leaves the opposite one where it was
   }
 }
 
+TEST_CASE("editor: the corner where a wall closes stays closed when it is dragged") {
+  const Solid wall = new_wall({{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 0.0}}, 0.0, 0.1, 2.5);
+  const auto all = grips(wall, 0.0, 0.3);
+  REQUIRE(all.size() == 4);  // three corners, and the knob
+  const Wall after = std::get<Wall>(dragged(wall, all[0], {-1.0, 0.5}, 0.0).shape);
+  CHECK(after.points.front() == glm::dvec2(-1.0, 0.5));
+  CHECK(after.points.back() == after.points.front());
+}
+
 TEST_CASE("editor: keys of a solid are judged as those of a world file are") {
   Runner runner;
   const auto now = opened(runner, "rooms/u");
