@@ -163,6 +163,26 @@ TEST_CASE("editor: what a world file cannot hold is named") {
   }
 }
 
+TEST_CASE("editor: a map with a box in it is saved by the map's name, unless the map was moved") {
+  Runner runner;
+  TemporaryFolder folder;
+  const auto now = opened(runner, "solids/maze.map");
+  Editor editor;
+  editor.follow(*now);
+  editor.add(new_box({1.0, 1.0}, {1.5, 1.25}, 0.0, 2.0));
+  const auto file = folder.path() / "w.toml";
+  const auto saved = save_world(editor.world(), file);
+  if (!saved) FAIL(saved.error().message);
+  const auto read = read_world(file);
+  if (!read) FAIL(read.error().message);
+  CHECK(same_world(*read, editor.world()));
+  editor.replace(0, moved(editor.world().solids[0], {1.0, 0.0}));
+  const auto again = save_world(editor.world(), folder.path() / "x.toml");
+  REQUIRE_FALSE(again);
+  CHECK(again.error().message.find("maze.map") != std::string::npos);
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()) == 1);
+}
+
 TEST_CASE("editor: the solid at a point is the one whose matter is above or below it") {
   World world;
   world.materials.emplace_back().name = "wall";
