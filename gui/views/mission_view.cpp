@@ -90,7 +90,7 @@ void MissionView::draw_key(const Frame& frame, KeyPlace at, const Key& key) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  ImGui::PushStyleColor(ImGuiCol_Text, changed ? frame.colours.selected : now != usual ? frame.colours.text : frame.colours.faint);
+  ImGui::PushStyleColor(ImGuiCol_Text, changed ? (frame.colours.dark ? frame.colours.selected : frame.colours.start) : now != usual ? frame.colours.text : frame.colours.faint);
   ImGui::Text("%s%s", changed ? "* " : "", key.name.c_str());
   ImGui::PopStyleColor();
   key_tooltip(key, usual);
