@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "thicket/base/files.hpp"
-#include "thicket/worlds/world_text.hpp"
 
 namespace thicket::gui {
 namespace {
@@ -265,20 +263,6 @@ const char* kind_of(const Solid& solid) {
   constexpr const char* names[] = {"box", "sphere", "cylinder", "wall", "map", "prism", "mesh"};
   static_assert(std::variant_size_v<Shape> == std::size(names));
   return names[solid.shape.index()];
-}
-
-Result<Done> save_world(const World& world, const std::filesystem::path& file) {
-  std::string left;
-  std::size_t count = 0;
-  for (const Solid& solid : world.solids) {
-    if (!std::holds_alternative<MapSolid>(solid.shape) && !std::holds_alternative<MeshSolid>(solid.shape)) continue;
-    if (++count <= 5) left += fmt::format("{}'{}' ({})", count > 1 ? ", " : "", solid.name, kind_of(solid));
-  }
-  if (count > 5) left += fmt::format(" and {} more", count - 5);
-  if (count > 0) return Error{fmt::format("{}: not written: a world file cannot hold {}, expected boxes, spheres, cylinders, walls and prisms; maps and meshes are kept in files of their own", file.string(), left)};
-  const auto text = write_world(world);
-  if (!text) return Error{fmt::format("{}: not written: {}", file.string(), text.error().message)};
-  return write_file(file, *text);
 }
 
 }  // namespace thicket::gui

@@ -73,7 +73,8 @@ std::vector<std::string> material_names(const World& world);
 /// "box", "sphere", "cylinder", "wall", "map", "prism", "mesh".
 const char* kind_of(const Solid& solid);
 
-/// Writes a world file that `read_world` reads as the same world. Errors: what such a file cannot hold, by name, and what the disk says.
-Result<Done> save_world(const World& world, const std::filesystem::path& file);
+/// Writes a world file that `read_world` reads as the same world. Of a world that was read from a map file the map is named, not copied (`image`: as in `MapOptions`), where it stands as it stood. Errors: what such a file cannot
+/// hold (meshes, maps of other worlds), by name, and what the disk says.
+Result<Done> save_world(const World& world, const std::filesystem::path& file, const std::filesystem::path& image = {});
 
 }  // namespace thicket::gui

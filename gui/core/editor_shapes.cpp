@@ -122,6 +122,9 @@ struct LocalRings {
   Rings operator()(const MeshSolid& m) const { return {rectangle(m.scale * glm::dvec2(m.mesh->low), m.scale * glm::dvec2(m.mesh->high))}; }
 };
 
+/// Its ends are one corner.
+bool closed(const Wall& wall) { return wall.points.size() > 2 && wall.points.front() == wall.points.back(); }
+
 double millimetres(double x) { return std::round(x * 1000.0) / 1000.0; }
 glm::dvec2 millimetres(const glm::dvec2& p) { return {millimetres(p.x), millimetres(p.y)}; }
 
@@ -198,10 +201,11 @@ std::vector<Grip> grips(const Solid& solid, double time, double reach) {
   if (const auto* sphere = std::get_if<Sphere>(&solid.shape)) list.push_back({Grip::Kind::radius, 0, frame.to_outer({sphere->radius, 0.0})});
   if (const auto* cylinder = std::get_if<Cylinder>(&solid.shape); cylinder && solid.upright()) list.push_back({Grip::Kind::radius, 0, frame.to_outer({cylinder->radius, 0.0})});
   const std::vector<glm::dvec2>* points = nullptr;
-  if (const auto* wall = std::get_if<Wall>(&solid.shape)) points = &wall->points;
+  const auto* wall = std::get_if<Wall>(&solid.shape);
+  if (wall) points = &wall->points;
   if (const auto* prism = std::get_if<Prism>(&solid.shape); prism && solid.upright()) points = &prism->outline;
   if (points)
-    for (std::size_t i = 0; i < points->size(); ++i) list.push_back({Grip::Kind::point, i, frame.to_outer((*points)[i])});
+    for (std::size_t i = 0; i < points->size() - (wall && closed(*wall)); ++i) list.push_back({Grip::Kind::point, i, frame.to_outer((*points)[i])});
   const bool round = solid.upright() && (std::holds_alternative<Sphere>(solid.shape) || std::holds_alternative<Cylinder>(solid.shape));
   if (!round) {
     double far = 0.0;
@@ -240,7 +244,11 @@ Solid dragged(const Solid& solid, const Grip& grip, const glm::dvec2& to, double
       return result;
     }
     case Grip::Kind::point:
-      if (auto* wall = std::get_if<Wall>(&result.shape)) wall->points[grip.index] = millimetres(local);
+      if (auto* wall = std::get_if<Wall>(&result.shape)) {
+        const bool both = grip.index == 0 && closed(*wall);
+        wall->points[grip.index] = millimetres(local);
+        if (both) wall->points.back() = wall->points.front();
+      }
       if (auto* prism = std::get_if<Prism>(&result.shape)) prism->outline[grip.index] = millimetres(local);
       return result;
     case Grip::Kind::corner: {

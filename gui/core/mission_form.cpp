@@ -134,7 +134,7 @@ Result<Saved> save_mission(const Mission& mission, const World& world, const std
   Mission written = mission;
   const auto own = read_mission_world(mission);
   if (!own || !same_world(*own, world)) {
-    const auto done = save_world(world, world_file);
+    const auto done = save_world(world, world_file, mission.image_file);
     if (!done) return done.error();
     saved.world = world_file;
     written = in_world_file(mission, world_file);

@@ -243,7 +243,7 @@ void EditView::draw_saving(const Frame& frame) {
   text_field("world##file", save_as_, typing_);
   std::error_code ignored;
   if (ImGui::Button(std::filesystem::exists(save_as_, ignored) ? "Save world (overwrite)###save" : "Save world###save")) {
-    const auto done = save_world(editor.world(), save_as_);
+    const auto done = save_world(editor.world(), save_as_, frame.now.simulation->mission().image_file);
     save_failed_ = !done;
     saved_ = done ? "saved " + save_as_ : done.error().message;
   }
@@ -277,10 +277,10 @@ void EditView::draw(const Frame& frame) {
     ImGui::TextWrapped("%s", editor.message.c_str());
     ImGui::PopStyleColor();
   }
+  draw_saving(frame);
+  ImGui::Separator();
   list_solids(frame);
   draw_form(frame);
-  ImGui::Separator();
-  draw_saving(frame);
 }
 
 }  // namespace

@@ -38,6 +38,7 @@ class MissionView final : public View {
   std::array<char, 128> search_{};
   bool only_changed_ = false;
   Typing typing_;
+  std::uint64_t posted_at_ = ~std::uint64_t{0};  ///< the number of the run's message when a change was posted; a later error is about it
   std::string refused_key_, refused_;     ///< the key whose typed value was refused, and why
   std::string save_as_, save_world_as_, saved_;
   bool save_failed_ = false;
@@ -70,11 +71,10 @@ void MissionView::follow(const Snapshot& now) {
 void MissionView::change(const Frame& frame, KeyPlace at, const std::optional<std::string>& typed) {
   const Key& key = parts_[at.part].section->keys[at.key];
   refused_.clear();
+  posted_at_ = frame.now.message.number;
+  refused_key_ = parts_[at.part].title + "." + key.name;
   const auto next = with_key(mission_, file_, at, typed);
-  auto refuse = [&](const Error& error) {
-    refused_key_ = parts_[at.part].title + "." + key.name;
-    refused_ = error.message;
-  };
+  const auto refuse = [&](const Error& error) { refused_ = error.message; };
   if (!next) return refuse(next.error());
   if (!concerns_world(key, at.part)) return frame.post(ChangeMission{*next});
   auto world = read_mission_world(*next);
@@ -90,7 +90,7 @@ void MissionView::draw_key(const Frame& frame, KeyPlace at, const Key& key) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  ImGui::PushStyleColor(ImGuiCol_Text, changed ? frame.colours.selected : now != usual ? frame.colours.text : frame.colours.faint);
+  ImGui::PushStyleColor(ImGuiCol_Text, changed ? (frame.colours.dark ? frame.colours.selected : frame.colours.start) : now != usual ? frame.colours.text : frame.colours.faint);
   ImGui::Text("%s%s", changed ? "* " : "", key.name.c_str());
   ImGui::PopStyleColor();
   key_tooltip(key, usual);
@@ -184,6 +184,11 @@ void MissionView::draw_saving(const Frame& frame) {
 void MissionView::draw(const Frame& frame) {
   if (!frame.now.simulation) return ImGui::TextUnformatted("Nothing is open.");
   follow(frame.now);
+  // What only the run could tell: it stands at the key too.
+  if (frame.now.message.error && frame.now.message.number > posted_at_) {
+    refused_ = frame.now.message.text;
+    posted_at_ = ~std::uint64_t{0};
+  }
   draw_saving(frame);
   ImGui::Separator();
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);

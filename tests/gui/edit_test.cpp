@@ -163,6 +163,26 @@ TEST_CASE("editor: what a world file cannot hold is named") {
   }
 }
 
+TEST_CASE("editor: a map with a box in it is saved by the map's name, unless the map was moved") {
+  Runner runner;
+  TemporaryFolder folder;
+  const auto now = opened(runner, "solids/maze.map");
+  Editor editor;
+  editor.follow(*now);
+  editor.add(new_box({1.0, 1.0}, {1.5, 1.25}, 0.0, 2.0));
+  const auto file = folder.path() / "w.toml";
+  const auto saved = save_world(editor.world(), file);
+  if (!saved) FAIL(saved.error().message);
+  const auto read = read_world(file);
+  if (!read) FAIL(read.error().message);
+  CHECK(same_world(*read, editor.world()));
+  editor.replace(0, moved(editor.world().solids[0], {1.0, 0.0}));
+  const auto again = save_world(editor.world(), folder.path() / "x.toml");
+  REQUIRE_FALSE(again);
+  CHECK(again.error().message.find("maze.map") != std::string::npos);
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()) == 1);
+}
+
 TEST_CASE("editor: the solid at a point is the one whose matter is above or below it") {
   World world;
   world.materials.emplace_back().name = "wall";
@@ -215,6 +235,15 @@ TEST_CASE("editor: a corner that is dragged leaves the opposite one where it was
     CHECK(glm::distance(after[(i + 2) % 4].at, all[(i + 2) % 4].at) < 1e-3);
     CHECK(glm::distance(after[i].at, all[i].at + 0.5 * away) < 2e-3);
   }
+}
+
+TEST_CASE("editor: the corner where a wall closes stays closed when it is dragged") {
+  const Solid wall = new_wall({{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 0.0}}, 0.0, 0.1, 2.5);
+  const auto all = grips(wall, 0.0, 0.3);
+  REQUIRE(all.size() == 4);  // three corners, and the knob
+  const Wall after = std::get<Wall>(dragged(wall, all[0], {-1.0, 0.5}, 0.0).shape);
+  CHECK(after.points.front() == glm::dvec2(-1.0, 0.5));
+  CHECK(after.points.back() == after.points.front());
 }
 
 TEST_CASE("editor: keys of a solid are judged as those of a world file are") {
