@@ -10,7 +10,8 @@
 namespace thicket::gui {
 namespace {
 
-double brightness(double amplitude, double most, bool decibel) { return decibel ? 1.0 + (decibels(amplitude) - decibels(most)) / 50.0 : amplitude / most; }
+/// (Linear is by the root: what is weak is seen beside what is strong.)
+double brightness(double amplitude, double most, bool decibel) { return decibel ? 1.0 + (decibels(amplitude) - decibels(most)) / 50.0 : std::sqrt(amplitude / most); }
 
 /// The beam of each of these many bearings; those that no beam covers have -1.
 std::vector<int> beams_by_bearing(const Scan& scan, std::size_t count) {
@@ -94,7 +95,7 @@ void Polar::draw(const Frame& frame, const Scan& scan, double most, bool decibel
     for (const Echo& echo : scan.echoes_of(b)) {
       const ImU32 colour = dots && frame.colours.dark ? heat(std::max(0.25, brightness(static_cast<double>(echo.amplitude), most, decibel))) : frame.colours.echo;
       if (dots) draw.AddCircleFilled(place(b.azimuth, echo.range), 2.0f, colour, 6);
-      else draw.AddCircle(place(b.azimuth, echo.range), 2.5f, colour, 6);
+      else draw.AddCircle(place(b.azimuth, echo.range), 2.5f, frame.colours.selected, 6);
     }
   draw.AddLine(centre, place(scan.beams[beam].azimuth, scan.range_max), frame.colours.selected);
   draw.AddTriangleFilled({centre.x, centre.y - 5.0f}, {centre.x - 3.5f, centre.y + 4.0f}, {centre.x + 3.5f, centre.y + 4.0f}, frame.colours.robot);

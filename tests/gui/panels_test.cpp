@@ -407,6 +407,30 @@ TEST_CASE("3D: the mouse turns, moves and zooms, and F fits; a coarse picture co
   CHECK(textures.all.at("space").width == view.image()->width);
 }
 
+TEST_CASE("profiler: while it plays, a row for what is beside the phases, and how fast it is") {
+  Runner runner;
+  runner.post(Open{"bugs/bug1_success", {}});
+  runner.post(StepBy{5});
+  auto now = runner.settled();
+  REQUIRE(now->simulation);
+  Sheet sheet;
+  NoTextures none;
+  const auto view = make_profiler_view();
+  sheet.draw(*view, *now, none);
+  const int paused = sheet.draw(*view, *now, none);
+  runner.post(SetSpeed{2.0});
+  runner.post(Play{});
+  int playing = 0;
+  const auto begun = std::chrono::steady_clock::now();
+  while (playing <= paused && std::chrono::steady_clock::now() - begun < std::chrono::seconds(20)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    now = runner.snapshot();
+    playing = sheet.draw(*view, *now, none);
+  }
+  runner.post(Pause{});
+  CHECK(playing > paused);
+}
+
 TEST_CASE("planner: who drives by hand can give the wheel back by a click") {
   Runner runner;
   opened(runner, "rooms/u", 4);
