@@ -47,8 +47,12 @@ Range Extremes::between(const Samples& samples, std::size_t first, std::size_t l
   return range;
 }
 
-std::size_t first_at(const Samples& samples, double time) {
-  std::size_t low = 0, high = samples.size();
+std::size_t first_at(const Samples& samples, double time, std::size_t from) {
+  std::size_t low = std::min(from, samples.size()), high = low;
+  for (std::size_t stride = 1; high < samples.size() && samples[high].time < time; stride *= 2) {
+    low = high + 1;
+    high = std::min(samples.size(), high + stride);
+  }
   while (low < high) {
     const std::size_t middle = (low + high) / 2;
     if (samples[middle].time < time) low = middle + 1;

@@ -218,6 +218,12 @@ TEST_CASE("extremes: a spike of one step is kept, what is not finite does not co
     CHECK(seen.low == by_hand.low);
     CHECK(seen.high == by_hand.high);
   }
+  for (const double time : {0.0, 0.05, 51.2, 51.21, 3000.0, 1e9})
+    for (const std::size_t from : {std::size_t{0}, std::size_t{1}, std::size_t{1000}}) {
+      std::size_t by_hand = 0;
+      while (by_hand < size && samples[by_hand].time < time) ++by_hand;
+      if (from <= by_hand) CHECK(first_at(samples, time, from) == by_hand);
+    }
   // Back in time, and another way on.
   const Samples before = samples;
   samples.keep_until(2000);
@@ -241,10 +247,13 @@ TEST_CASE("plots: a million samples take no longer to draw than a few thousand, 
   NoTextures none;
   const auto view = make_plots_view();
   sheet.draw(*view, now, none);
-  const auto begun = std::chrono::steady_clock::now();
   int vertices = 0;
-  for (int i = 0; i < 10; ++i) vertices = sheet.draw(*view, now, none);
-  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count() / 10.0;
+  double ms = infinity;  // of the fastest: others may want the processor too
+  for (int i = 0; i < 10; ++i) {
+    const auto begun = std::chrono::steady_clock::now();
+    vertices = sheet.draw(*view, now, none);
+    ms = std::min(ms, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count());
+  }
   MESSAGE("ms a frame: " << ms << ", vertices: " << vertices);
   CHECK(ms < 33.0);
   CHECK(vertices < 60'000);
