@@ -32,23 +32,30 @@ Range Extremes::between(const Samples& samples, std::size_t first, std::size_t l
   Range range;
   last = std::min(last, samples.size());
   for (std::size_t i = first; i < last;) {
-    const std::size_t within = i % Samples::chunk_size;
-    const Chunk* chunk = within % block == 0 && i + block <= last ? full_chunk(samples, i / Samples::chunk_size) : nullptr;
-    if (chunk && within == 0 && i + Samples::chunk_size <= last) {
+    const std::size_t number = i / Samples::chunk_size, begin = number * Samples::chunk_size, end = std::min(last, begin + Samples::chunk_size);
+    const Chunk* chunk = end - i >= block ? full_chunk(samples, number) : nullptr;
+    if (chunk && end - i == Samples::chunk_size) {
       join(range, chunk->all);
-      i += Samples::chunk_size;
-    } else if (chunk) {
-      join(range, chunk->ranges[within / block]);
-      i += block;
-    } else {
-      range.hold(of_(samples[i++]));
+      i = end;
+    }
+    while (i < end) {
+      if (chunk && i % block == 0 && i + block <= end) {
+        join(range, chunk->ranges[(i - begin) / block]);
+        i += block;
+      } else {
+        range.hold(of_(samples[i++]));
+      }
     }
   }
   return range;
 }
 
-std::size_t first_at(const Samples& samples, double time) {
-  std::size_t low = 0, high = samples.size();
+std::size_t first_at(const Samples& samples, double time, std::size_t from) {
+  std::size_t low = std::min(from, samples.size()), high = low;
+  for (std::size_t stride = 1; high < samples.size() && samples[high].time < time; stride *= 2) {
+    low = high + 1;
+    high = std::min(samples.size(), high + stride);
+  }
   while (low < high) {
     const std::size_t middle = (low + high) / 2;
     if (samples[middle].time < time) low = middle + 1;

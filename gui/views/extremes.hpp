@@ -18,7 +18,7 @@ class Extremes {
   Range between(const Samples& samples, std::size_t first, std::size_t last);
 
  private:
-  static constexpr std::size_t block = 32;
+  static constexpr std::size_t block = 16;
   struct Chunk {
     std::shared_ptr<const std::vector<Sample>> samples;  ///< that the ranges are of
     std::array<Range, Samples::chunk_size / block> ranges;
@@ -30,7 +30,7 @@ class Extremes {
   std::vector<Chunk> chunks_;
 };
 
-/// The first sample at or after a time.
-std::size_t first_at(const Samples& samples, double time);
+/// The first sample at or after a time, looked for from one that is before it; found the faster the nearer that is.
+std::size_t first_at(const Samples& samples, double time, std::size_t from = 0);
 
 }  // namespace thicket::gui

@@ -14,7 +14,7 @@ constexpr double nearest = 0.02;  // m ahead of the camera
 }  // namespace
 
 ImU32 Overlay::faint(ImU32 colour) {
-  const ImU32 alpha = (colour >> IM_COL32_A_SHIFT & 0xffu) / 5;
+  const ImU32 alpha = (colour >> IM_COL32_A_SHIFT & 0xffu) / 4;
   return (colour & ~IM_COL32_A_MASK) | alpha << IM_COL32_A_SHIFT;
 }
 

@@ -141,7 +141,7 @@ void PlotsView::draw_line(const Samples& samples, Plot& plot, const Chart& chart
     // Least and most of every column of pixels: a spike of one step stays.
     std::size_t from = first;
     for (int column = 0; column < columns && from < last; ++column) {
-      const std::size_t to = column + 1 == columns ? last : std::min(last, first_at(samples, chart.x_at(chart.low.x + static_cast<float>(column) + 1.0f)));
+      const std::size_t to = column + 1 == columns ? last : std::min(last, first_at(samples, chart.x_at(chart.low.x + static_cast<float>(column) + 1.0f), from));
       const Range seen = plot.extremes.between(samples, from, to);
       const float x = chart.low.x + static_cast<float>(column) + 0.5f;
       if (!seen.empty()) {

@@ -10,7 +10,8 @@
 namespace thicket::gui {
 namespace {
 
-double brightness(double amplitude, double most, bool decibel) { return decibel ? 1.0 + (decibels(amplitude) - decibels(most)) / 50.0 : amplitude / most; }
+/// (Linear is by the root: what is weak is seen beside what is strong.)
+double brightness(double amplitude, double most, bool decibel) { return decibel ? 1.0 + (decibels(amplitude) - decibels(most)) / 50.0 : std::sqrt(amplitude / most); }
 
 /// The beam of each of these many bearings; those that no beam covers have -1.
 std::vector<int> beams_by_bearing(const Scan& scan, std::size_t count) {
@@ -83,18 +84,21 @@ void Polar::draw(const Frame& frame, const Scan& scan, double most, bool decibel
     bool fresh = false;
     if (const ImTextureID texture = frame.textures.get("polar", side, side, fresh)) draw.AddImage(texture, {centre.x - radius, centre.y - radius}, {centre.x + radius, centre.y + radius});
   }
+  // Profiles are on a dark ground whatever the window is.
+  const Palette& on = frame.colours;
+  const ImU32 ring = scan.profiles.bins > 0 ? IM_COL32(255, 255, 255, 40) : on.grid, ring_text = scan.profiles.bins > 0 ? IM_COL32(255, 255, 255, 140) : on.grid_text;
   const Ticks rings = nice_ticks(0.0, scan.range_max, 5);
   for (const double range : rings.at) {
     if (range <= 0.0) continue;
-    draw.AddCircle(centre, static_cast<float>(range * scale), frame.colours.grid, 96);
-    draw.AddText({centre.x + 2.0f, centre.y - static_cast<float>(range * scale)}, frame.colours.grid_text, tick_text(range, rings.step).c_str());
+    draw.AddCircle(centre, static_cast<float>(range * scale), ring, 96);
+    draw.AddText({centre.x + 2.0f, centre.y - static_cast<float>(range * scale)}, ring_text, tick_text(range, rings.step).c_str());
   }
   const bool dots = scan.profiles.bins == 0;
   for (const Beam& b : scan.beams)
     for (const Echo& echo : scan.echoes_of(b)) {
       const ImU32 colour = dots && frame.colours.dark ? heat(std::max(0.25, brightness(static_cast<double>(echo.amplitude), most, decibel))) : frame.colours.echo;
       if (dots) draw.AddCircleFilled(place(b.azimuth, echo.range), 2.0f, colour, 6);
-      else draw.AddCircle(place(b.azimuth, echo.range), 2.5f, colour, 6);
+      else draw.AddCircleFilled(place(b.azimuth, echo.range), 1.5f, frame.colours.selected, 6);
     }
   draw.AddLine(centre, place(scan.beams[beam].azimuth, scan.range_max), frame.colours.selected);
   draw.AddTriangleFilled({centre.x, centre.y - 5.0f}, {centre.x - 3.5f, centre.y + 4.0f}, {centre.x + 3.5f, centre.y + 4.0f}, frame.colours.robot);

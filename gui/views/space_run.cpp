@@ -17,8 +17,8 @@ Pose pose_at(const Snapshot& now, double time) {
   return Pose::planar(pose.position.x, pose.position.y, s.vehicle_pose().position.z, pose.yaw);
 }
 
-/// The border of a lobe: four edges, and an arc at its end.
-void draw_lobe(const Frame& frame, const Pose& sensor, const Scan& scan, const Beam& beam, Overlay& overlay) {
+/// The border of a lobe: four edges, and an arc at its end; an echo may come from anywhere at its range, and is an arc too.
+void draw_lobe(const Frame& frame, const Pose& sensor, const Scan& scan, const Beam& beam, const SpaceLayers& layers, Overlay& overlay) {
   const double far = beam.sensed_range > 0.0 ? beam.sensed_range : scan.range_max;
   const auto towards = [&](double azimuth, double elevation) {
     const double a = beam.azimuth + azimuth, e = beam.elevation + elevation;
@@ -26,15 +26,17 @@ void draw_lobe(const Frame& frame, const Pose& sensor, const Scan& scan, const B
   };
   const ImU32 colour = frame.colours.ray | IM_COL32_A_MASK;
   const double half_a = 0.5 * scan.azimuth_opening, half_e = 0.5 * scan.elevation_opening;
-  for (const double e : {-half_e, half_e}) {
-    for (const double a : {-half_a, half_a}) overlay.line(sensor.position, sensor.position + far * towards(a, e), colour);
-  }
   constexpr int parts = 16;
   const auto arc = [&](double range, ImU32 arc_colour, float width) {
     for (int i = 0; i < parts; ++i)
       overlay.line(sensor.position + range * towards(half_a * (2.0 * i / parts - 1.0), 0.0), sensor.position + range * towards(half_a * (2.0 * (i + 1) / parts - 1.0), 0.0), arc_colour, width);
   };
-  arc(far, colour, 1.0f);
+  if (layers.rays) {
+    for (const double e : {-half_e, half_e})
+      for (const double a : {-half_a, half_a}) overlay.line(sensor.position, sensor.position + far * towards(a, e), colour);
+    arc(far, colour, 1.0f);
+  }
+  if (!layers.echoes) return;
   for (const Echo& echo : scan.echoes_of(beam)) arc(echo.range, frame.colours.echo, 2.0f);
 }
 
@@ -45,7 +47,7 @@ void draw_scan(const Frame& frame, const Scan& scan, bool lidar, const SpaceLaye
   for (std::size_t i = 0; i < scan.beams.size(); ++i) {
     const Beam& beam = scan.beams[i];
     if (scan.azimuth_opening > radians(10.0)) {
-      if (layers.rays) draw_lobe(frame, sensor, scan, beam, overlay);
+      draw_lobe(frame, sensor, scan, beam, layers, overlay);
       continue;
     }
     const glm::dvec3 along = sensor.orientation * beam.direction;
