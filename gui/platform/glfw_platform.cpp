@@ -68,6 +68,16 @@ class Screen final : public Platform {
   void begin() override {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    // A key that was let go before this frame is down for the length of it, so that fields and views see it too.
+    bool* const down = ImGui::GetIO().KeysDown;
+    for (const int key : tapped_)
+      if (glfwGetKey(window_, key) == GLFW_RELEASE) down[key] = false;
+    tapped_.clear();
+    for (const KeyPress& press : pressed_)
+      if (press.key >= 0 && press.key <= GLFW_KEY_LAST && !down[press.key]) {
+        down[press.key] = true;
+        tapped_.push_back(press.key);
+      }
     ImGui::NewFrame();
   }
   void draw(ImU32 background) override {
@@ -125,6 +135,7 @@ class Screen final : public Platform {
   std::optional<GlTextures> textures_;
   std::vector<std::filesystem::path> dropped_;
   std::vector<KeyPress> pressed_;
+  std::vector<int> tapped_;  ///< keys that are down in this frame only
   std::string title_;
   bool happened_ = false;
   double scale_ = 1.0;

@@ -258,7 +258,7 @@ TEST_CASE("gui: without a screen it says what to do; render says what it expects
   CHECK(call(THICKET_PROGRAM " render no/such/mission --out x.png").first == 2);
 }
 
-TEST_CASE("gui: a real session: played, paused, stepped back, photographed, quit by keys") {
+TEST_CASE("gui: a real session: played, paused, stepped back, photographed, saved, quit by keys") {
   for (const char* needed : {"xvfb-run", "xauth", "xdotool"})
     if (!has_program(needed)) {
       MESSAGE("skipped: there is no ", needed, " (Debian packages xvfb, xauth, xdotool)");
@@ -273,6 +273,7 @@ TEST_CASE("gui: a real session: played, paused, stepped back, photographed, quit
                                        "xdotool key space; sleep 2; xdotool key space; sleep 0.5\n"
                                        "xdotool key shift+Left; sleep 0.5\n"
                                        "xdotool key F12; for i in $(seq 50); do [ -f thicket-picture-001.png ] && break; sleep 0.1; done\n"
+                                       "xdotool key ctrl+s; sleep 0.7; xdotool key Return; sleep 0.5\n"
                                        "xdotool key ctrl+q; wait $program\n");
   const auto [code, text] = call("timeout 90 xvfb-run -a -s '-screen 0 1280x800x24' bash '" + script.string() + "'");
   INFO(text);
@@ -286,6 +287,7 @@ TEST_CASE("gui: a real session: played, paused, stepped back, photographed, quit
   CHECK(json["gl_errors"] == 0);
   CHECK(json["frames"] > 10);
   CHECK(fs::exists(folder.path() / "thicket-picture-001.png"));
+  CHECK(is_mission(folder.path() / "u-changed.toml"));
   CHECK(fs::exists(folder.path() / "thicket" / "window.json"));
 }
 
