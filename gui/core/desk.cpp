@@ -133,9 +133,8 @@ void Workbench::draw(const Snapshot& now, Platform& platform) {
   use_look(settings_.dark, platform.scale());
   if (!still_) {
     const bool asked = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-    each_pressed([&](Deed deed) {
-      if (!asked || deed == Deed::quit || deed == Deed::screenshot) act(deed, now);
-    });
+    for (const KeyPress& press : platform.pressed())
+      if (const auto deed = deed_of(press, ImGui::GetIO().WantTextInput); deed && (!asked || deed == Deed::quit || deed == Deed::screenshot)) act(*deed, now);
     drive(now, platform.stick());
     for (const auto& file : platform.dropped()) open(file);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,7 +35,7 @@ class Workbench {
 
   bool quits() const { return quits_; }
   /// Something moves by itself: frames are wanted without a person's doing.
-  bool moves() const { return recorder_.running() || driving_; }
+  bool moves() const { return recorder_.running() || driving_ || writing_.valid(); }
   Settings& settings() { return settings_; }
   void say(bool error, std::string text);
   struct Place {
@@ -88,6 +89,8 @@ class Workbench {
   Command last_command_;
   Recorder recorder_;
   double recording_since_ = 0.0;
+  std::future<std::string> writing_;  ///< a picture: what is wrong; compressing it takes longer than a frame
+  std::filesystem::path picture_;
   bool wants_picture_ = false, wants_record_ = false;
 };
 

@@ -1,6 +1,8 @@
 // What the desk reads and writes.
 #include <fmt/format.h>
 
+#include <chrono>
+
 #include "desk.hpp"
 #include "thicket/base/files.hpp"
 #include "thicket/base/probability_file.hpp"
@@ -50,12 +52,17 @@ void Workbench::export_map(const Snapshot& now) {
 }
 
 void Workbench::take_pictures(Platform& platform, double time) {
-  if (wants_picture_) {
+  if (writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+    const std::string wrong = writing_.get();
+    say(!wrong.empty(), wrong.empty() ? fmt::format("the picture is in {}", full(picture_)) : wrong);
+  }
+  if (wants_picture_ && !writing_.valid()) {
     wants_picture_ = false;
-    const fs::path file = free_name("", "thicket-picture", "png");
-    const auto written = write_picture(file, platform.pixels());
-    if (!written) say(true, written.error().message);
-    else say(false, fmt::format("the picture is in {}", full(file)));
+    picture_ = free_name("", "thicket-picture", "png");
+    writing_ = std::async(std::launch::async, [file = picture_, picture = platform.pixels()] {
+      const auto written = write_picture(file, picture);
+      return written ? std::string() : written.error().message;
+    });
   }
   if (wants_record_) {
     wants_record_ = false;

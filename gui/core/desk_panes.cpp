@@ -47,7 +47,7 @@ void Workbench::draw_pane(Pane& pane, const char* id, const ImVec2& size, const 
 void Workbench::draw_panes(const Frame& frame, double height) {
   const double bar = thick * frame.scale, width = static_cast<double>(ImGui::GetContentRegionAvail().x);
   height = std::max(height, 40.0);
-  const auto size = [](double x, double y) { return ImVec2(static_cast<float>(std::max(x, 16.0)), static_cast<float>(std::max(y, 16.0))); };
+  const auto size = [](double x, double y) { return ImVec2(static_cast<float>(std::max(x, 4.0)), static_cast<float>(std::max(y, 4.0))); };
   const double left = settings_.left_share * (width - bar), upper = settings_.upper_share * (height - bar);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0.0f, 0.0f));
   const ImGuiStyle own = ImGui::GetStyle();
@@ -74,7 +74,7 @@ double Workbench::status_height() const {
   double lines = 1.0;
   for (const Note& note : notes_)
     if (note.error) lines += 1.0 + static_cast<double>(std::count(note.text.begin(), note.text.end(), '\n'));
-  const double line = static_cast<double>(ImGui::GetFrameHeightWithSpacing());
+  const double line = static_cast<double>(ImGui::GetTextLineHeightWithSpacing());
   return std::min(lines * line, std::max(line, static_cast<double>(ImGui::GetIO().DisplaySize.y) / 3.0));
 }
 

@@ -47,18 +47,12 @@ const char* key_of(Deed deed) {
   return "";
 }
 
-std::optional<Deed> deed_of(int key, bool ctrl, bool shift, bool typing) {
+std::optional<Deed> deed_of(const KeyPress& press, bool typing) {
+  if (press.other) return std::nullopt;
+  const bool function = press.key >= GLFW_KEY_F1 && press.key <= GLFW_KEY_F25;
   for (const KeyBinding& b : key_table())
-    if (b.key == key && b.ctrl == ctrl && b.shift == shift && !b.held && (!typing || ctrl || (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F25))) return b.deed;
+    if (b.key == press.key && b.ctrl == press.ctrl && b.shift == press.shift && !b.held && (b.repeats || !press.again) && (!typing || press.ctrl || function)) return b.deed;
   return std::nullopt;
-}
-
-void each_pressed(const std::function<void(Deed)>& act) {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (io.KeyAlt || io.KeySuper) return;
-  for (const KeyBinding& b : key_table())
-    if (!b.held && ImGui::IsKeyPressed(b.key, b.repeats))
-      if (const auto deed = deed_of(b.key, io.KeyCtrl, io.KeyShift, io.WantTextInput); deed == b.deed && b.ctrl == io.KeyCtrl && b.shift == io.KeyShift) act(*deed);
 }
 
 bool is_held(Deed deed) {

@@ -1,7 +1,6 @@
 // Every key of the window, in one table: what is done and what F1 shows are read from it.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -31,11 +30,9 @@ std::span<const KeyBinding> key_table();
 /// The name of the key for a deed, for buttons and menus.
 const char* key_of(Deed deed);
 
-/// A press of a key; what it is for. With letters typed into a field, only keys with Ctrl and function keys count.
-std::optional<Deed> deed_of(int key, bool ctrl, bool shift, bool typing);
+/// What a press of a key is for. While letters are typed into a field, only keys with Ctrl and function keys count.
+std::optional<Deed> deed_of(const KeyPress& press, bool typing);
 
-/// Calls for each deed whose key was pressed in this frame of ImGui.
-void each_pressed(const std::function<void(Deed)>& act);
 /// Whether the key of a deed is held now.
 bool is_held(Deed deed);
 

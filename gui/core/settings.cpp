@@ -84,6 +84,7 @@ std::string report_json(const Report& r) {
                        {"left_view_px", {r.left, r.top, r.width, r.height}},
                        {"frames", r.frames},
                        {"gl_errors", r.gl_errors},
+                       {"first_frame_ms", r.first_frame_ms},
                        {"median_frame_ms", r.median_frame_ms},
                        {"longest_frame_ms", r.longest_frame_ms}};
   return object.dump(2, ' ', false, json::error_handler_t::replace) + "\n";

@@ -38,7 +38,7 @@ struct Report {
   std::vector<double> goal;                     ///< x, y; empty: none
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;  ///< of the left view in the window, pixels
   std::uint64_t frames = 0, gl_errors = 0;
-  double median_frame_ms = 0.0, longest_frame_ms = 0.0;  ///< from the events to the picture
+  double first_frame_ms = 0.0, median_frame_ms = 0.0, longest_frame_ms = 0.0;  ///< from the events to the picture; median and longest without the first, in which OpenGL gets ready
 };
 std::string report_json(const Report& report);
 

@@ -19,9 +19,14 @@ double seconds(Clock::time_point from, Clock::time_point to) { return std::chron
 struct FrameTimes {
   std::vector<double> newest;
   std::uint64_t count = 0;
-  double longest = 0.0;
+  double first = 0.0, longest = 0.0;  ///< the first, in which OpenGL gets ready, is told apart
 
   void add(double s) {
+    if (count == 0) {
+      first = s;
+      ++count;
+      return;
+    }
     if (newest.size() < 10000) newest.push_back(s);
     else newest[count % newest.size()] = s;
     ++count;
@@ -42,6 +47,7 @@ Report report_of(const Snapshot& now, const Workbench& bench, const FrameTimes& 
   r.frames = times.count;
   r.gl_errors = gl_errors;
   r.median_frame_ms = 1e3 * times.median();
+  r.first_frame_ms = 1e3 * times.first;
   r.longest_frame_ms = 1e3 * times.longest;
   const auto& pane = bench.left_pane();
   r.left = static_cast<double>(pane.low.x), r.top = static_cast<double>(pane.low.y);

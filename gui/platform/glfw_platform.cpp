@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 #include "gl_textures.hpp"
 #include "platform.hpp"
@@ -67,6 +68,16 @@ class Screen final : public Platform {
   void begin() override {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    // A key that was let go before this frame is down for the length of it, so that fields and views see it too.
+    bool* const down = ImGui::GetIO().KeysDown;
+    for (const int key : tapped_)
+      if (glfwGetKey(window_, key) == GLFW_RELEASE) down[key] = false;
+    tapped_.clear();
+    for (const KeyPress& press : pressed_)
+      if (press.key >= 0 && press.key <= GLFW_KEY_LAST && !down[press.key]) {
+        down[press.key] = true;
+        tapped_.push_back(press.key);
+      }
     ImGui::NewFrame();
   }
   void draw(ImU32 background) override {
@@ -80,6 +91,7 @@ class Screen final : public Platform {
   Textures& textures() override { return *textures_; }
   double scale() const override { return scale_; }
   std::vector<std::filesystem::path> dropped() override { return std::exchange(dropped_, {}); }
+  std::vector<KeyPress> pressed() override { return std::exchange(pressed_, {}); }
   Stick stick() override {
     GLFWgamepadstate state;
     for (int pad = GLFW_JOYSTICK_1; pad <= GLFW_JOYSTICK_LAST; ++pad) {
@@ -102,7 +114,10 @@ class Screen final : public Platform {
   void listen() {
     glfwSetWindowUserPointer(window_, this);
     static const auto self = [](GLFWwindow* window) { return static_cast<Screen*>(glfwGetWindowUserPointer(window)); };
-    glfwSetKeyCallback(window_, [](GLFWwindow* w, int, int, int, int) { self(w)->happened_ = true; });
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
+      self(w)->happened_ = true;
+      if (action != GLFW_RELEASE) self(w)->pressed_.push_back({key, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0, (mods & (GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0, action == GLFW_REPEAT});
+    });
     glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned) { self(w)->happened_ = true; });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { self(w)->happened_ = true; });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { self(w)->happened_ = true; });
@@ -119,6 +134,8 @@ class Screen final : public Platform {
   GLFWwindow* window_ = nullptr;
   std::optional<GlTextures> textures_;
   std::vector<std::filesystem::path> dropped_;
+  std::vector<KeyPress> pressed_;
+  std::vector<int> tapped_;  ///< keys that are down in this frame only
   std::string title_;
   bool happened_ = false;
   double scale_ = 1.0;

@@ -19,6 +19,13 @@ struct Stick {
   double forward = 0.0, left = 0.0;
 };
 
+/// A key that went down. ImGui 1.86 sees only what is down at a frame: what is pressed and let go between two it would miss.
+struct KeyPress {
+  int key = 0;  ///< of GLFW
+  bool ctrl = false, shift = false, other = false;  ///< held with it; other: Alt, Super
+  bool again = false;  ///< by being held
+};
+
 /// Open, poll, draw, close: there is one per ImGui context, which it makes and takes down.
 class Platform {
  public:
@@ -38,6 +45,7 @@ class Platform {
   virtual Textures& textures() = 0;
   virtual double scale() const = 0;  ///< of letters and lines
   virtual std::vector<std::filesystem::path> dropped() { return {}; }  ///< files, since the last call
+  virtual std::vector<KeyPress> pressed() { return {}; }  ///< since the last call
   virtual Stick stick() { return {}; }
   virtual void title(const std::string&) {}
   /// OpenGL's errors since the last call, as their number.

@@ -1,0 +1,294 @@
+#include <doctest/doctest.h>
+#include <stdlib.h>  // setenv
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/desk.hpp"
+#include "temporary_folder.hpp"
+#include "thicket/base/files.hpp"
+#include "thicket/gui/render.hpp"
+#include "thicket/gui/window.hpp"
+
+namespace thicket::gui {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> shipped_missions() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(shipped_root() / "worlds" / "data"))
+    if (entry.path().extension() == ".toml" && is_mission(entry.path())) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool of_one_colour(const Picture& picture) {
+  for (std::size_t i = 3; i < picture.rgb.size(); ++i)
+    if (picture.rgb[i] != picture.rgb[i - 3]) return false;
+  return true;
+}
+
+bool is(const Picture& picture, int x, int y, ImU32 colour) {
+  const std::uint8_t* p = picture.at(x, y);
+  return p[0] == (colour & 255) && p[1] == (colour >> 8 & 255) && p[2] == (colour >> 16 & 255);
+}
+
+std::unique_ptr<Platform> offscreen(const Size& size) {
+  auto platform = open_offscreen(size);
+  if (!platform) FAIL(platform.error().message);
+  return std::move(*platform);
+}
+
+/// The status of a command, and what it printed.
+std::pair<int, std::string> call(const std::string& command) {
+  std::string printed;
+  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  REQUIRE(pipe);
+  char buffer[4096];
+  while (const std::size_t count = std::fread(buffer, 1, sizeof buffer, pipe)) printed.append(buffer, count);
+  const int status = pclose(pipe);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, printed};
+}
+
+}  // namespace
+
+TEST_CASE("keys: a key does one thing, every deed has one, and typed letters are letters") {
+  const auto table = key_table();
+  for (std::size_t i = 0; i < table.size(); ++i)
+    for (std::size_t j = i + 1; j < table.size(); ++j) {
+      CAPTURE(table[i].help);
+      CAPTURE(table[j].help);
+      CHECK_FALSE((table[i].key == table[j].key && table[i].ctrl == table[j].ctrl && table[i].shift == table[j].shift));
+    }
+  for (int deed = 0; deed <= static_cast<int>(Deed::drive_right); ++deed) {
+    CAPTURE(deed);
+    CHECK(*key_of(static_cast<Deed>(deed)) != '\0');
+  }
+  CHECK(deed_of({GLFW_KEY_SPACE}, false) == Deed::play);
+  CHECK(deed_of({GLFW_KEY_SPACE}, true) == std::nullopt);
+  CHECK(deed_of({GLFW_KEY_SPACE, false, false, false, true}, false) == std::nullopt);  // held: not once more
+  CHECK(deed_of({GLFW_KEY_RIGHT, false, false, false, true}, false) == Deed::forward);
+  CHECK(deed_of({GLFW_KEY_RIGHT, false, true}, false) == Deed::forward_ten);
+  CHECK(deed_of({GLFW_KEY_S, true}, true) == Deed::save_mission);
+  CHECK(deed_of({GLFW_KEY_S, true, true}, true) == Deed::save_mission_as);
+  CHECK(deed_of({GLFW_KEY_S}, false) == std::nullopt);  // drives, while it is held
+  CHECK(deed_of({GLFW_KEY_F5}, true) == Deed::reload);
+  CHECK(deed_of({GLFW_KEY_Q, true, false, true}, false) == std::nullopt);
+}
+
+TEST_CASE("keys: those that are held, and the stick, are one command within the limits") {
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  CHECK(hand_command({}, 0.7, 2.0).speed == 0.0);
+  io.KeysDown[GLFW_KEY_W] = io.KeysDown[GLFW_KEY_D] = true;
+  CHECK(hand_command({}, 0.7, 2.0).speed == doctest::Approx(0.7));
+  CHECK(hand_command({}, 0.7, 2.0).turn_rate == doctest::Approx(-1.0));
+  CHECK(hand_command({1.0, 0.5}, 0.7, 2.0).speed == doctest::Approx(0.7));
+  CHECK(hand_command({1.0, 0.5}, 0.7, 2.0).turn_rate == doctest::Approx(-0.5));
+  io.WantTextInput = true;
+  CHECK(hand_command({}, 0.7, 2.0).speed == 0.0);
+  ImGui::DestroyContext();
+}
+
+TEST_CASE("settings: what is written is read; what cannot be read is as by default") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "thicket" / "window.json";
+  Settings s;
+  s.dark = false;
+  s.width = 1000;
+  s.left_share = 0.3;
+  s.lower_view = "Plots";
+  for (int i = 0; i < 20; ++i) s.used(fmt::format("/maps/{}.toml", i % 15));
+  s.used("/maps/14.toml");
+  CHECK(s.recent.size() == Settings::most_recent);
+  CHECK(s.recent[0] == "/maps/14.toml");
+  CHECK(std::count(s.recent.begin(), s.recent.end(), "/maps/14.toml") == 1);
+  REQUIRE(write_settings(file, s));
+  const Settings read = read_settings(file);
+  CHECK_FALSE(read.dark);
+  CHECK(read.width == 1000);
+  CHECK(read.left_share == 0.3);
+  CHECK(read.lower_view == "Plots");
+  CHECK(read.recent == s.recent);
+
+  CHECK(read_settings(folder.write("broken.json", "{\"dark\": ")).dark);
+  CHECK(read_settings(folder.write("list.json", "[1]")).width == 1280);
+  const Settings odd = read_settings(folder.write("odd.json", R"({"dark": "no", "width": -5, "left_share": 7, "recent": [1]})"));
+  CHECK(odd.dark);
+  CHECK(odd.width == 320);
+  CHECK(odd.left_share == 0.9);
+  CHECK(odd.recent.empty());
+}
+
+TEST_CASE("pictures: free names, what can be opened") {
+  const TemporaryFolder folder;
+  CHECK(free_name(folder.path(), "a", "png") == folder.path() / "a-001.png");
+  folder.write("a-001.png", "");
+  CHECK(free_name(folder.path(), "a", "png") == folder.path() / "a-002.png");
+  CHECK(can_open("x/World.TOML"));
+  CHECK(can_open("x.obj"));
+  CHECK_FALSE(can_open("x.png"));
+}
+
+TEST_CASE("offscreen: known colours at known points, of rectangles and of textures") {
+  auto platform = offscreen({64, 48});
+  const ImU32 background = palette(true).background, cells[] = {0xFF0000FF, 0xFF00FF00, 0xFFFF0000, 0xFFFFFFFF};
+  for (int frame = 0; frame < 2; ++frame) {
+    platform->begin();
+    ImDrawList& draw = *ImGui::GetForegroundDrawList();
+    draw.AddRectFilled({10.0f, 10.0f}, {20.0f, 20.0f}, IM_COL32(230, 159, 0, 255));
+    bool fresh = false;
+    const ImTextureID texture = platform->textures().get("cells", 2, 2, fresh);
+    CHECK(fresh == (frame == 0));
+    if (fresh) platform->textures().update("cells", 0, 0, 2, 2, cells);
+    draw.AddImage(texture, {40.0f, 20.0f}, {60.0f, 40.0f});
+    platform->draw(background);
+  }
+  const Picture picture = platform->pixels();
+  CHECK(is(picture, 0, 0, background));
+  CHECK(is(picture, 63, 47, background));
+  CHECK(is(picture, 15, 15, IM_COL32(230, 159, 0, 255)));
+  CHECK(is(picture, 45, 25, IM_COL32(255, 0, 0, 255)));
+  CHECK(is(picture, 55, 25, IM_COL32(0, 255, 0, 255)));
+  CHECK(is(picture, 45, 35, IM_COL32(0, 0, 255, 255)));
+  CHECK(is(picture, 55, 35, IM_COL32(255, 255, 255, 255)));
+  CHECK(platform->faults() == 0);
+}
+
+TEST_CASE("offscreen: every view of every shipped mission is drawn, without an error of OpenGL") {
+  auto platform = offscreen({640, 400});
+  const Palette colours = palette(true);
+  for (const fs::path& file : shipped_missions()) {
+    Runner runner;
+    runner.post(Open{file, {}});
+    runner.post(StepBy{30});
+    const auto now = runner.settled();
+    CAPTURE(file.string());
+    REQUIRE(now->simulation);
+    for (const auto& view : make_views()) {
+      CAPTURE(view->name());
+      Desk desk;
+      const Frame frame{*now, colours, platform->textures(), desk, [](Action) {}, 1.0, true};
+      for (int i = 0; i < 2; ++i) {
+        platform->begin();
+        ImGui::SetNextWindowPos({0.0f, 0.0f});
+        ImGui::SetNextWindowSize({640.0f, 400.0f});
+        ImGui::Begin("picture", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground);
+        view->draw(frame);
+        ImGui::End();
+        platform->draw(colours.background);
+      }
+      CHECK_FALSE(of_one_colour(platform->pixels()));
+      CHECK(platform->faults() == 0);
+    }
+  }
+}
+
+TEST_CASE("offscreen: a broken file leaves the old world running, with its message on the desk") {
+  const TemporaryFolder folder;
+  Runner runner;
+  runner.post(Open{"rooms/u", {}});
+  runner.post(Open{folder.write("broken.toml", "world = \"rooms/u_room\"\n[planner]\nspeed_m_s = \"quick\"\n"), {}});
+  const auto now = runner.settled();
+  REQUIRE(now->simulation);
+  CHECK(now->simulation->mission().name == "u");
+  CHECK(now->message.error);
+  CHECK(now->message.text.find("broken.toml:3") != std::string::npos);
+  auto platform = offscreen({800, 500});
+  Workbench bench(runner, {}, true);
+  const auto draw = [&](const Snapshot& snapshot) {
+    for (int i = 0; i < 3; ++i) {
+      platform->begin();
+      bench.draw(snapshot, *platform);
+      platform->draw(0);
+    }
+    return platform->pixels();
+  };
+  // The message is written in the palette's warning colour, at the bottom. (Letters are thin: few pixels have all of it.)
+  const auto warnings = [](const Picture& picture) {
+    int count = 0;
+    for (int y = 400; y < 500; ++y)
+      for (int x = 0; x < 800; ++x) count += is(picture, x, y, palette(true).warning) ? 1 : 0;
+    return count;
+  };
+  Snapshot good = *now;
+  good.message = {1, false, "opened"};
+  CHECK(warnings(draw(good)) == 0);
+  CHECK(warnings(draw(*now)) > 5);
+}
+
+TEST_CASE("render: the same bytes each time, of the time that was asked for") {
+  const TemporaryFolder folder;
+  RenderOptions options;
+  options.file = "rooms/u";
+  options.view = "world";
+  options.time = 3.0;
+  options.width = 400;
+  options.height = 300;
+  const auto draw = [&](const char* name) {
+    options.out = folder.path() / name;
+    const auto drawn = render_picture(options);
+    if (!drawn) FAIL(drawn.error().message);
+    return *read_text_file(options.out);
+  };
+  const std::string first = draw("a.png");
+  CHECK(first == draw("b.png"));
+  options.light = true;
+  CHECK(first != draw("light.png"));
+  options.light = false;
+  options.time = 8.0;
+  CHECK(first != draw("later.png"));
+  options.view = "all";
+  draw("all.png");
+  options.view = "nothing";
+  const auto wrong = render_picture(options);
+  REQUIRE_FALSE(wrong);
+  CHECK(wrong.error().message.find("world, 3d, map") != std::string::npos);
+}
+
+TEST_CASE("gui: without a screen it says what to do; render says what it expects") {
+  const auto [code, text] = call("env -u DISPLAY -u WAYLAND_DISPLAY " THICKET_PROGRAM " gui rooms/u");
+  CHECK(code == 2);
+  CHECK(text.find("xvfb-run") != std::string::npos);
+  CHECK(text.find("thicket render") != std::string::npos);
+  CHECK(call(THICKET_PROGRAM " render rooms/u --out x.png --size big").first == 2);
+  CHECK(call(THICKET_PROGRAM " render no/such/mission --out x.png").first == 2);
+}
+
+TEST_CASE("gui: a real session: played, paused, stepped back, photographed, saved, quit by keys") {
+  for (const char* needed : {"xvfb-run", "xauth", "xdotool"})
+    if (!has_program(needed)) {
+      MESSAGE("skipped: there is no ", needed, " (Debian packages xvfb, xauth, xdotool)");
+      return;
+    }
+  const TemporaryFolder folder;
+  const fs::path script = folder.write("session.sh",
+                                       "cd '" + folder.path().string() + "'; export XDG_CONFIG_HOME=$PWD\n" THICKET_PROGRAM " gui rooms/u --report report.json & program=$!\n"
+                                       "window() { xdotool search --pid $program 2>/dev/null | tail -n 1; }\n"
+                                       "for i in $(seq 200); do [ -n \"$(window)\" ] && break; sleep 0.1; done\n"
+                                       "sleep 1.5; xdotool windowfocus \"$(window)\"; sleep 0.3\n"
+                                       "xdotool key space; sleep 2; xdotool key space; sleep 0.5\n"
+                                       "xdotool key shift+Left; sleep 0.5\n"
+                                       "xdotool key F12; for i in $(seq 50); do [ -f thicket-picture-001.png ] && break; sleep 0.1; done\n"
+                                       "xdotool key ctrl+s; sleep 0.7; xdotool key Return; sleep 0.5\n"
+                                       "xdotool key ctrl+q; wait $program\n");
+  const auto [code, text] = call("timeout 90 xvfb-run -a -s '-screen 0 1280x800x24' bash '" + script.string() + "'");
+  INFO(text);
+  CHECK(code == 0);
+  const auto report = read_text_file(folder.path() / "report.json");
+  REQUIRE(report);
+  const auto json = nlohmann::json::parse(*report);
+  CHECK(json["mission"] == "u");
+  CHECK(json["newest_step"] >= 12);
+  CHECK(json["steps"] == static_cast<std::int64_t>(json["newest_step"]) - 10);
+  CHECK(json["gl_errors"] == 0);
+  CHECK(json["frames"] > 10);
+  CHECK(fs::exists(folder.path() / "thicket-picture-001.png"));
+  CHECK(is_mission(folder.path() / "u-changed.toml"));
+  CHECK(fs::exists(folder.path() / "thicket" / "window.json"));
+}
+
+}  // namespace thicket::gui
