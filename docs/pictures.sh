@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes every picture of the docs anew, with the program; or those of one kind: bugs, maps, radar, worlds.
+# Makes every picture of the docs anew, with the program; or those of one kind: bugs, maps, radar, window, worlds.
 set -euo pipefail
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 program=${THICKET_PROGRAM:-$root/thicket}
@@ -32,7 +32,21 @@ scan() {
   "$program" scan "$2" "${@:3}" --png "$root/docs/pictures/radar/$1.png"
 }
 
+# Views of the window.
+view() {
+  "$program" render "$2" --view "$1" --at "$3" --out "$root/docs/pictures/window/$1.png" --size "$4" "${@:5}"
+}
+
 cd -- "$root" # files of sensors are named from here
+if [[ ${1:-all} == all || $1 == window ]]; then
+  mkdir -p -- docs/pictures/window
+  view all foliage_wall/bug2 30 1280x800
+  view world thicket/look_through 10 640x400
+  view 3d thicket/look_through 10 640x400
+  view map thicket/look_through 25 640x400
+  view radar findings/lobes 10 640x400
+  for name in planner plots profiler mission edit; do view "$name" foliage_wall/bug2 30 640x400; done
+fi
 if [[ ${1:-all} == all || $1 == radar ]]; then
   mkdir -p -- docs/pictures/radar
   scan penetration foliage_wall/divided_room --pose -2.6,1.475,0.4,0 --sensor usarsim2012 --sensor utm30lx --set fov_deg=180

@@ -178,7 +178,7 @@ class TruthOutline {
 struct Layers {
   enum class Rays { amplitude, depth, side };
   enum class MapPlace { off, under, over };
-  bool rays = true, echoes = true, bumpers = false, clearance = false, lidar = true, lobes = true, truth = false, contact = true, trail = true, marks = true, solids = true;
+  bool rays = true, echoes = true, bumpers = true, clearance = false, lidar = true, lobes = true, truth = false, contact = true, trail = true, marks = true, solids = true;
   Rays ray_mode = Rays::amplitude;
   MapPlace map = MapPlace::off;
 
