@@ -9,6 +9,7 @@
 
 #include "thicket/base/files.hpp"
 #include "thicket/gui/runner.hpp"
+#include "thicket/sim/material_colour.hpp"
 #include "views/plan.hpp"
 
 namespace thicket::gui {
@@ -350,6 +351,13 @@ TEST_CASE("plan: the map view tells the cell under the cursor and the score agai
     judged = stand.frame();
   }
   CHECK(judged >= before + 400);  // lines of words, four corners a letter
+}
+
+TEST_CASE("plan: what a radar passes is told from what stops it") {
+  Material leaves{.name = "foliage", .attenuation_db_per_m = 5.0}, metal{.name = "metal"};
+  CHECK(material_colour(leaves).penetrable);
+  CHECK_FALSE(material_colour(metal).penetrable);
+  CHECK(material_colour(leaves).display.y > material_colour(leaves).display.x);
 }
 
 TEST_CASE("plan: an edited world sends only meshes that are new") {
