@@ -4,9 +4,11 @@
 #include <array>
 #include <functional>
 #include <future>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -95,7 +97,9 @@ class PlanSolids {
   struct Mask {
     int width = 0, height = 0;
     std::vector<std::uint32_t> pixels;
+    bool sent = false;  ///< to the graphics card
   };
+  using MeshKey = std::tuple<std::shared_ptr<const Mesh>, double, double, double>;  ///< scale, pitch, roll
   void make(const Snapshot& now);
   void make_mask(Footprint& shape);
   void draw_one(const Frame& frame, const PlanCamera& camera, const Entry& entry, ImDrawList& draw);
@@ -104,7 +108,8 @@ class PlanSolids {
   bool made_ = false;
   std::vector<Entry> entries_;
   std::unordered_map<std::string, Mask> masks_;
-  std::unordered_map<std::string, std::uint64_t> sent_;  ///< masks that the graphics card has, and of which world's revision + 1
+  std::map<MeshKey, std::shared_ptr<const Footprint>> meshes_;  ///< kept from world to world: an edited one has most of its meshes still
+  int masks_made_ = 0;
 };
 
 /// The occupancy map as pictures, of which only squares that have changed go to the graphics card.

@@ -1,8 +1,6 @@
 // The solids of a world from above.
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <tuple>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -55,7 +53,7 @@ void PlanSolids::make_mask(Footprint& shape) {
   shape.high = shape.low + glm::dvec2(mask.width, mask.height) * pixel;
   shape.fills.clear();
   shape.rings.clear();
-  shape.mask = "world mask " + std::to_string(masks_.size());
+  shape.mask = "world mask " + std::to_string(masks_made_++);
   masks_[shape.mask] = std::move(mask);
 }
 
@@ -63,12 +61,12 @@ void PlanSolids::make(const Snapshot& now) {
   revision_ = now.world_revision;
   made_ = true;
   entries_.clear();
-  masks_.clear();
   const World& world = now.simulation->stage().scene.world();
   const Mission& mission = now.simulation->mission();
   double head = mission.start.z_m + mission.vehicle.hull().z_high;
   for (const SensorSpec& sensor : mission.sensors) head = std::max(head, mission.start.z_m + mounted(sensor).position_m.z);
-  std::map<std::tuple<const Mesh*, double, double, double>, std::shared_ptr<const Footprint>> of_mesh;
+  std::map<MeshKey, std::shared_ptr<const Footprint>> before;
+  before.swap(meshes_);
   for (std::uint32_t i = 0; i < world.solids.size(); ++i) {
     const Solid& solid = world.solids[i];
     const Bounds box = extent(solid);
@@ -78,7 +76,9 @@ void PlanSolids::make(const Snapshot& now) {
     entry.top = box.high.z;
     entry.overhead = !solid.motion && box.low.z > head + 0.1;
     const auto* mesh = std::get_if<MeshSolid>(&solid.shape);
-    auto* known = mesh ? &of_mesh[{mesh->mesh.get(), mesh->scale, solid.pitch, solid.roll}] : nullptr;
+    auto* known = mesh ? &meshes_[{mesh->mesh, mesh->scale, solid.pitch, solid.roll}] : nullptr;
+    if (known && !*known)
+      if (const auto old = before.find({mesh->mesh, mesh->scale, solid.pitch, solid.roll}); old != before.end()) *known = old->second;
     if (known && *known) {
       entry.shape = *known;
     } else {
@@ -93,6 +93,8 @@ void PlanSolids::make(const Snapshot& now) {
     entry.edge = colour_of(0.55 * colour.display, std::min(1.0, alpha + 0.3));
     entries_.push_back(std::move(entry));
   }
+  for (const auto& [key, shape] : before)
+    if (!meshes_.contains(key)) masks_.erase(shape->mask);
   std::stable_sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.top < b.top; });
 }
 
@@ -124,12 +126,11 @@ void PlanSolids::draw_one(const Frame& frame, const PlanCamera& camera, const En
     draw.AddPolyline(points.data(), static_cast<int>(points.size()), edge, ImDrawFlags_Closed, thick);
   };
   if (!shape.mask.empty()) {
-    const Mask& mask = masks_[shape.mask];
+    Mask& mask = masks_[shape.mask];
     bool fresh = false;
     const ImTextureID texture = frame.textures.get(shape.mask, mask.width, mask.height, fresh);
-    // The same name may have held another world's mesh: pictures are small, and sent once a world.
-    if (fresh || sent_.insert({shape.mask, 0}).first->second != revision_ + 1) frame.textures.update(shape.mask, 0, 0, mask.width, mask.height, mask.pixels.data());
-    sent_[shape.mask] = revision_ + 1;
+    if (fresh || !mask.sent) frame.textures.update(shape.mask, 0, 0, mask.width, mask.height, mask.pixels.data());
+    mask.sent = true;
     draw.AddImageQuad(texture, screen(shape.low), screen({shape.high.x, shape.low.y}), screen(shape.high), screen({shape.low.x, shape.high.y}), {0, 0}, {1, 0}, {1, 1}, {0, 1}, entry.fill);
     if (selected) outline({shape.low, {shape.high.x, shape.low.y}, shape.high, {shape.low.x, shape.high.y}});
     return;

@@ -9,6 +9,7 @@
 
 #include "thicket/base/files.hpp"
 #include "thicket/gui/runner.hpp"
+#include "thicket/sim/material_colour.hpp"
 #include "views/plan.hpp"
 
 namespace thicket::gui {
@@ -350,6 +351,31 @@ TEST_CASE("plan: the map view tells the cell under the cursor and the score agai
     judged = stand.frame();
   }
   CHECK(judged >= before + 400);  // lines of words, four corners a letter
+}
+
+TEST_CASE("plan: what a radar passes is told from what stops it") {
+  Material leaves{.name = "foliage", .attenuation_db_per_m = 5.0}, metal{.name = "metal"};
+  CHECK(material_colour(leaves).penetrable);
+  CHECK_FALSE(material_colour(metal).penetrable);
+  CHECK(material_colour(leaves).display.y > material_colour(leaves).display.x);
+}
+
+TEST_CASE("plan: an edited world sends only meshes that are new") {
+  Stand stand(make_world_view());
+  Runner runner;
+  runner.post(Open{"thicket/way_round", {}});
+  stand.now = runner.settled();
+  stand.frame();
+  CHECK(stand.textures.sent > 0);
+  stand.textures.sent = 0;
+  World world = stand.now->simulation->scene().world();
+  world.solids.push_back({"added", 0, {-6.0, 3.0, 0.5}, 0.0, Box{}});
+  runner.post(ChangeWorld{world});
+  const int before = stand.frame();
+  stand.now = runner.settled();
+  REQUIRE_FALSE(stand.now->message.error);
+  CHECK(stand.frame() > before);
+  CHECK(stand.textures.sent == 0);
 }
 
 TEST_CASE("plan: every shipped mission is drawn in both views, at its start and after 50 steps") {
