@@ -35,7 +35,7 @@ class Workbench {
 
   bool quits() const { return quits_; }
   /// Something moves by itself: frames are wanted without a person's doing.
-  bool moves() const { return recorder_.running() || driving_ || writing_.valid(); }
+  bool moves() const { return recorder_.running() || driving_ || !writing_.empty(); }
   Settings& settings() { return settings_; }
   void say(bool error, std::string text);
   struct Place {
@@ -89,8 +89,12 @@ class Workbench {
   Command last_command_;
   Recorder recorder_;
   double recording_since_ = 0.0;
-  std::future<std::string> writing_;  ///< a picture: what is wrong; compressing it takes longer than a frame
-  std::filesystem::path picture_;
+  /// What is written beside the window, because it takes longer than a frame.
+  struct Writing {
+    std::future<std::string> wrong;  ///< empty: nothing
+    std::string good;                ///< what to say then
+  };
+  std::vector<Writing> writing_;
   bool wants_picture_ = false, wants_record_ = false;
 };
 

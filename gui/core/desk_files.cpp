@@ -52,24 +52,26 @@ void Workbench::export_map(const Snapshot& now) {
 }
 
 void Workbench::take_pictures(Platform& platform, double time) {
-  if (writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-    const std::string wrong = writing_.get();
-    say(!wrong.empty(), wrong.empty() ? fmt::format("the picture is in {}", full(picture_)) : wrong);
-  }
-  if (wants_picture_ && !writing_.valid()) {
+  std::erase_if(writing_, [&](Writing& w) {
+    if (w.wrong.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+    const std::string wrong = w.wrong.get();
+    say(!wrong.empty(), wrong.empty() ? w.good : wrong);
+    return true;
+  });
+  // (One picture at a time, so that two do not get one name.)
+  if (wants_picture_ && writing_.empty()) {
     wants_picture_ = false;
-    picture_ = free_name("", "thicket-picture", "png");
-    writing_ = std::async(std::launch::async, [file = picture_, picture = platform.pixels()] {
+    const fs::path file = free_name("", "thicket-picture", "png");
+    auto wrong = std::async(std::launch::async, [file, picture = platform.pixels()] {
       const auto written = write_picture(file, picture);
       return written ? std::string() : written.error().message;
     });
+    writing_.push_back({std::move(wrong), fmt::format("the picture is in {}", full(file))});
   }
   if (wants_record_) {
     wants_record_ = false;
     if (recorder_.running()) {
-      const auto ended = recorder_.end();
-      if (!ended) say(true, ended.error().message);
-      else say(false, fmt::format("the video is in {}", full(recorder_.file())));
+      writing_.push_back({recorder_.end_beside(), fmt::format("the video is in {}", full(recorder_.file()))});
     } else {
       const Picture first = platform.pixels();
       const auto begun = recorder_.begin(free_name("", "thicket-video", "mp4"), first.width, first.height);

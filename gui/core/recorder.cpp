@@ -58,11 +58,15 @@ Result<Done> Recorder::add(const Picture& picture, double time) {
   return Done{};
 }
 
+std::future<std::string> Recorder::end_beside() {
+  return std::async(std::launch::async, [pipe = std::exchange(pipe_, nullptr), file = file_] {
+    return pipe && pclose(pipe) != 0 ? fmt::format("{}: ffmpeg failed; its messages are in the terminal", file.string()) : std::string();
+  });
+}
+
 Result<Done> Recorder::end() {
-  if (!pipe_) return Done{};
-  const int code = pclose(pipe_);
-  pipe_ = nullptr;
-  if (code != 0) return Error{fmt::format("{}: ffmpeg failed; its messages are in the terminal", file_.string())};
+  const std::string wrong = end_beside().get();
+  if (!wrong.empty()) return Error{wrong};
   return Done{};
 }
 

@@ -3,6 +3,9 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <future>
+#include <string>
+#include <utility>
 
 #include "../platform/picture.hpp"
 
@@ -31,6 +34,8 @@ class Recorder {
   /// Whether a picture is due at that time.
   bool due(double time) const { return running() && time * rate >= static_cast<double>(written_); }
   Result<Done> end();
+  /// The same beside the window, since ffmpeg takes its time: what went wrong, empty if nothing did.
+  std::future<std::string> end_beside();
 
  private:
   std::FILE* pipe_ = nullptr;
