@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <glm/vec2.hpp>
@@ -36,12 +37,20 @@ class Textures {
 
 struct Frame;
 
+/// A key of a view's own, for who asks what keys there are.
+struct ViewKey {
+  const char* key;
+  const char* help;
+};
+
 /// One view: draws itself into the current ImGui window (or child), all of its content region.
 class View {
  public:
   virtual ~View() = default;
   virtual const char* name() const = 0;  ///< "World"; also the name for `thicket render --view`, in small letters
   virtual void draw(const Frame& frame) = 0;
+  /// What it does with keys while the mouse is over it.
+  virtual std::span<const ViewKey> own_keys() const { return {}; }
 };
 
 /// A plan seen from above: where points of the world are on the screen.

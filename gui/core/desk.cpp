@@ -67,7 +67,7 @@ void Workbench::drive(const Snapshot& now, const Stick& stick) {
   if (!now.simulation) return;
   by_hand_ = now.simulation->driven_by_hand() && (by_hand_ || !driving_);
   const VehicleSpec& vehicle = now.simulation->mission().vehicle;
-  const Command command = hand_command(stick, vehicle.speed_max_m_s, radians(vehicle.turn_rate_max_deg_s));
+  const Command command = hand_command(stick, vehicle.speed_max_m_s, radians(vehicle.turn_rate_max_deg_s), chords_);
   if (command.speed != 0.0 || command.turn_rate != 0.0) {
     // Each change is a thing that the person did, and kept as such: not one a frame.
     if (!driving_ || command.speed != last_command_.speed || command.turn_rate != last_command_.turn_rate) runner_.post(Drive{command});
@@ -133,8 +133,10 @@ void Workbench::draw(const Snapshot& now, Platform& platform) {
   use_look(settings_.dark, platform.scale());
   if (!still_) {
     const bool asked = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-    for (const KeyPress& press : platform.pressed())
+    const std::vector<KeyPress> pressed = platform.pressed();
+    for (const KeyPress& press : pressed)
       if (const auto deed = deed_of(press, ImGui::GetIO().WantTextInput); deed && (!asked || deed == Deed::quit || deed == Deed::screenshot)) act(*deed, now);
+    follow(chords_, pressed);
     drive(now, platform.stick());
     for (const auto& file : platform.dropped()) open(file);
   }
@@ -159,18 +161,33 @@ void Workbench::draw_help() {
   if (!help_) return;
   ImGui::SetNextWindowPos({0.5f * ImGui::GetIO().DisplaySize.x, 0.5f * ImGui::GetIO().DisplaySize.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
   if (ImGui::Begin("Keys", &help_, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
-    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
-      for (const KeyBinding& binding : key_table()) {
-        if (!*binding.keys) continue;
-        ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(binding.keys);
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(binding.help);
-      }
+    const auto row = [](const char* keys, const char* help) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(keys);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(help);
+    };
+    constexpr auto look = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
+    ImGui::BeginGroup();
+    if (ImGui::BeginTable("keys", 2, look)) {
+      for (const KeyBinding& binding : key_table())
+        if (*binding.keys) row(binding.keys, binding.help);
       ImGui::EndTable();
     }
-    ImGui::TextDisabled("A gamepad's left stick drives as W A S D do. A view's own keys are told by its buttons, under the mouse.");
+    ImGui::EndGroup();
+    ImGui::SameLine(0.0f, 2.0f * ImGui::GetFontSize());
+    ImGui::BeginGroup();
+    for (const auto& view : views_) {
+      if (view->own_keys().empty()) continue;
+      ImGui::TextDisabled("%s, with the mouse over it", view->name());
+      if (ImGui::BeginTable(view->name(), 2, look)) {
+        for (const ViewKey& key : view->own_keys()) row(key.key, key.help);
+        ImGui::EndTable();
+      }
+    }
+    ImGui::EndGroup();
+    ImGui::TextDisabled("A gamepad's left stick drives as W A S D do.");
   }
   ImGui::End();
 }

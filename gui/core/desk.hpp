@@ -87,6 +87,7 @@ class Workbench {
   std::filesystem::path saved_as_;    ///< the mission, by the person
   bool driving_ = false, by_hand_ = false;
   Command last_command_;
+  Chords chords_;
   Recorder recorder_;
   double recording_since_ = 0.0;
   /// What is written beside the window, because it takes longer than a frame.

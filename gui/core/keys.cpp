@@ -55,16 +55,22 @@ std::optional<Deed> deed_of(const KeyPress& press, bool typing) {
   return std::nullopt;
 }
 
-bool is_held(Deed deed) {
+void follow(Chords& chords, std::span<const KeyPress> pressed) {
+  std::erase_if(chords, [](int key) { return !ImGui::IsKeyDown(key); });
+  for (const KeyPress& press : pressed)
+    if (press.ctrl && press.key >= 0 && press.key <= GLFW_KEY_LAST) chords.insert(press.key);
+}
+
+bool is_held(Deed deed, const Chords& chords) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantTextInput || io.KeyCtrl || io.KeyAlt || io.KeySuper) return false;
   for (const KeyBinding& b : key_table())
-    if (b.deed == deed && b.held && ImGui::IsKeyDown(b.key)) return true;
+    if (b.deed == deed && b.held && ImGui::IsKeyDown(b.key) && !chords.contains(b.key)) return true;
   return false;
 }
 
-Command hand_command(const Stick& stick, double speed_max, double turn_rate_max) {
-  const auto both = [](Deed plus, Deed minus) { return (is_held(plus) ? 1.0 : 0.0) - (is_held(minus) ? 1.0 : 0.0); };
+Command hand_command(const Stick& stick, double speed_max, double turn_rate_max, const Chords& chords) {
+  const auto both = [&](Deed plus, Deed minus) { return (is_held(plus, chords) ? 1.0 : 0.0) - (is_held(minus, chords) ? 1.0 : 0.0); };
   const double forward = std::clamp(stick.forward + both(Deed::drive_forward, Deed::drive_back), -1.0, 1.0);
   const double left = std::clamp(stick.left + both(Deed::drive_left, Deed::drive_right), -1.0, 1.0);
   // Half the turn rate: at all of it nobody stops where they want to.

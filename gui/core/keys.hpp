@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 
@@ -33,10 +34,15 @@ const char* key_of(Deed deed);
 /// What a press of a key is for. While letters are typed into a field, only keys with Ctrl and function keys count.
 std::optional<Deed> deed_of(const KeyPress& press, bool typing);
 
-/// Whether the key of a deed is held now.
-bool is_held(Deed deed);
+/// Keys that are still down since they were pressed together with Ctrl: who lets go of Ctrl first does not mean the key alone.
+using Chords = std::set<int>;
+/// Adds those that were pressed, drops those that are up.
+void follow(Chords& chords, std::span<const KeyPress> pressed);
+
+/// Whether the key of a deed is held now, by itself.
+bool is_held(Deed deed, const Chords& chords = {});
 
 /// Where the keys that are held and the stick want the robot to go, as shares of its limits.
-Command hand_command(const Stick& stick, double speed_max, double turn_rate_max);
+Command hand_command(const Stick& stick, double speed_max, double turn_rate_max, const Chords& chords = {});
 
 }  // namespace thicket::gui

@@ -236,7 +236,7 @@ void EditView::draw_saving(const Frame& frame) {
   const Editor& editor = editing_->editor;
   if (file_ != frame.now.file) {
     file_ = frame.now.file;
-    save_as_ = (std::filesystem::current_path() / (file_.stem().string() + "_world.toml")).string();
+    save_as_ = file_.stem().string() + "_world.toml";
     saved_.clear();
   }
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 4.0f * ImGui::GetFontSize());

@@ -11,6 +11,16 @@ class MapView final : public View {
  public:
   const char* name() const override { return "Map"; }
   void draw(const Frame& frame) override;
+  std::span<const ViewKey> own_keys() const override {
+    static constexpr ViewKey list[] = {
+        {"F", "fit"},
+        {"T", "follow the robot"},
+        {"N", "north up, or the robot's heading"},
+        {"L", "legend of 2012, or probabilities"},
+        {"C", "score against the truth"},
+        {"0", "robot and trail"}};
+    return list;
+  }
 
  private:
   void toolbar();

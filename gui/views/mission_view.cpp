@@ -56,7 +56,7 @@ void MissionView::follow(const Snapshot& now) {
     saved_.clear();
     // What is shipped is not written over.
     const bool own = is_mission(now.file) && find_shipped(std::filesystem::path(portable_name(now.file))).empty();
-    const std::filesystem::path target = own ? now.file : std::filesystem::current_path() / (now.file.stem().string() + "_mission.toml");
+    const std::filesystem::path target = own ? now.file : std::filesystem::path(now.file.stem().string() + "_mission.toml");
     save_as_ = target.string();
     save_world_as_ = (target.parent_path() / (now.file.stem().string() + "_world.toml")).string();
   }

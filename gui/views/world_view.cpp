@@ -21,6 +21,27 @@ class WorldView final : public View {
  public:
   const char* name() const override { return "World"; }
   void draw(const Frame& frame) override;
+  std::span<const ViewKey> own_keys() const override {
+    static constexpr ViewKey list[] = {
+        {"F", "fit"},
+        {"T", "follow the robot"},
+        {"N", "north up, or the robot's heading"},
+        {"P G J M I", "tools: pan, goal, robot, measure, inspect"},
+        {"1", "rays"},
+        {"Y", "rays by amplitude, by depth in matter, by side"},
+        {"2", "echoes"},
+        {"3", "bumpers"},
+        {"4", "clearance"},
+        {"5", "lidar"},
+        {"6", "lobes"},
+        {"7", "map: off, under, over"},
+        {"8", "truth"},
+        {"9", "contact"},
+        {"0", "trail"},
+        {"K", "the planner's marks"},
+        {"B", "solids"}};
+    return list;
+  }
 
  private:
   void toolbar(const Frame& frame);

@@ -88,6 +88,14 @@ TEST_CASE("keys: those that are held, and the stick, are one command within the 
   CHECK(hand_command({}, 0.7, 2.0).turn_rate == doctest::Approx(-1.0));
   CHECK(hand_command({1.0, 0.5}, 0.7, 2.0).speed == doctest::Approx(0.7));
   CHECK(hand_command({1.0, 0.5}, 0.7, 2.0).turn_rate == doctest::Approx(-0.5));
+  // Pressed with Ctrl, and Ctrl let go first: that is no wish to drive.
+  Chords chords;
+  const KeyPress with_ctrl[] = {{GLFW_KEY_W, true}};
+  follow(chords, with_ctrl);
+  CHECK(hand_command({}, 0.7, 2.0, chords).speed == 0.0);
+  io.KeysDown[GLFW_KEY_W] = false;
+  follow(chords, {});
+  CHECK(chords.empty());
   io.WantTextInput = true;
   CHECK(hand_command({}, 0.7, 2.0).speed == 0.0);
   ImGui::DestroyContext();
@@ -289,6 +297,37 @@ TEST_CASE("gui: a real session: played, paused, stepped back, photographed, save
   CHECK(fs::exists(folder.path() / "thicket-picture-001.png"));
   CHECK(is_mission(folder.path() / "u-changed.toml"));
   CHECK(fs::exists(folder.path() / "thicket" / "window.json"));
+}
+
+TEST_CASE("gui: a real session: a double click sets the goal, and the robot goes there") {
+  for (const char* needed : {"xvfb-run", "xauth", "xdotool"})
+    if (!has_program(needed)) {
+      MESSAGE("skipped: there is no ", needed, " (Debian packages xvfb, xauth, xdotool)");
+      return;
+    }
+  const TemporaryFolder folder;
+  // The window opens at 1280 x 800 with the world to the left, fitted: (-8, -5) m is in the open below the start.
+  const fs::path script = folder.write("session.sh",
+                                       "cd '" + folder.path().string() + "'; export XDG_CONFIG_HOME=$PWD\n" THICKET_PROGRAM " gui foliage_wall/bug2 --report report.json & program=$!\n"
+                                       "window() { xdotool search --pid $program 2>/dev/null | tail -n 1; }\n"
+                                       "for i in $(seq 200); do [ -n \"$(window)\" ] && break; sleep 0.1; done\n"
+                                       "sleep 1.5; xdotool windowfocus \"$(window)\"; sleep 0.3\n"
+                                       "xdotool mousemove 160 571; sleep 0.3; xdotool click --repeat 2 --delay 80 1; sleep 0.5\n"
+                                       "for i in 1 2 3 4 5 6 7 8; do xdotool key plus; sleep 0.1; done\n"
+                                       "xdotool key space; sleep 2\n"
+                                       "xdotool key ctrl+q; wait $program\n");
+  const auto [code, text] = call("timeout 90 xvfb-run -a -s '-screen 0 1280x800x24' bash '" + script.string() + "'");
+  INFO(text);
+  CHECK(code == 0);
+  const auto report = read_text_file(folder.path() / "report.json");
+  REQUIRE(report);
+  INFO(*report);
+  const auto json = nlohmann::json::parse(*report);
+  REQUIRE(json["goal_m"].is_array());
+  CHECK(std::abs(json["goal_m"][0].get<double>() + 8.0) < 1.0);
+  CHECK(std::abs(json["goal_m"][1].get<double>() + 5.0) < 1.0);
+  CHECK(std::hypot(json["position_m"][0].get<double>() - json["goal_m"][0].get<double>(), json["position_m"][1].get<double>() - json["goal_m"][1].get<double>()) < 0.2);
+  CHECK(json["gl_errors"] == 0);
 }
 
 }  // namespace thicket::gui
