@@ -1,9 +1,8 @@
 // What a person does to a run that is under way, and the number by which two states are told apart.
-#include <bit>
 #include <cmath>
-#include <cstring>
 
 #include "thicket/sim/simulation.hpp"
+#include "vehicle_limits.hpp"
 
 namespace thicket {
 namespace {
@@ -43,11 +42,8 @@ void Simulation::drive(const std::optional<Command>& command) {
     decision_ = {*command, Outcome::running, "driven by hand", ""};
     if (verdict_ && clearance_.distance > 0.0) verdict_.reset();
   } else if (given_back) {
-    if (auto anew = changed(mission(), vehicle_.pose)) {
-      anew->vehicle_.speed = vehicle_.speed;
-      anew->vehicle_.turn_rate = vehicle_.turn_rate;
-      *this = std::move(*anew);
-    }
+    // The mission's planner could be made before; what it knows of where it is is the estimate, drift and all.
+    planner_ = std::move(*make_planner(mission().planner, vehicle_limits(mission()), estimate()));
   }
 }
 
@@ -78,7 +74,6 @@ Result<Simulation> Simulation::changed(const Mission& mission, Scene scene, cons
     next.scan_estimates_ = scan_estimates_;
   }
   next.manual_ = pose ? std::nullopt : manual_;
-  const VehicleLimits limits = is.vehicle.limits(std::max(is.step_s, 1.0 / next.stage_->sensors[next.stage_->bumper_sensors.front()]->spec().rate_hz));
   const bool planner_stays = !pose && !verdict_ && as_many && is.step_s == was.step_s && same(planner_section(), was.planner, is.planner) && same(vehicle_section(), was.vehicle, is.vehicle) &&
                              same(bumper_section(), was.bumpers, is.bumpers) && was.planner.clearance_m == is.planner.clearance_m;
   if (planner_stays) {
@@ -86,7 +81,7 @@ Result<Simulation> Simulation::changed(const Mission& mission, Scene scene, cons
     next.bumpers_ = bumpers_;
     next.decision_ = decision_;
   } else {
-    auto planner = make_planner(is.planner, limits, next.estimate());
+    auto planner = make_planner(is.planner, vehicle_limits(is), next.estimate());
     if (!planner) return planner.error();
     next.planner_ = std::move(*planner);
   }

@@ -10,6 +10,7 @@
 
 #include "thicket/base/probability_file.hpp"
 #include "thicket/sim/auto_clearance.hpp"
+#include "vehicle_limits.hpp"
 
 namespace thicket {
 namespace {
@@ -30,10 +31,6 @@ class Stopwatch {
 /// How much farther than the least clearance so far is looked, m: the farther, the rarer the next look, but the dearer this one.
 constexpr double look_ahead = 0.5;
 
-VehicleLimits vehicle_limits(const Mission& mission) {
-  return mission.vehicle.limits(std::max(mission.step_s, 1.0 / mounted(mission.sensors[bumper_sensors(mission).front()]).rate_hz));
-}
-
 BumperRing make_bumpers(const Mission& mission) {
   return {mission.bumpers, mission.vehicle.radius_m, press_distance(mission.bumpers, mission.planner, vehicle_limits(mission)), mission.planner.clearance_m};
 }
@@ -41,6 +38,10 @@ BumperRing make_bumpers(const Mission& mission) {
 Pose2 start_pose(const Mission& mission) { return {{mission.start.x_m, mission.start.y_m}, wrap_angle(radians(mission.start.yaw_deg))}; }
 
 }  // namespace
+
+VehicleLimits vehicle_limits(const Mission& mission) {
+  return mission.vehicle.limits(std::max(mission.step_s, 1.0 / mounted(mission.sensors[bumper_sensors(mission).front()]).rate_hz));
+}
 
 const char* to_string(Verdict::Kind kind) {
   switch (kind) {

@@ -19,8 +19,7 @@ template <class Cell>
 class CellsOf final : public Cells {
  public:
   explicit CellsOf(const MapSpec& spec)
-      : store_(make_store<Cell>(spec.store, to_units<Cell>(0.5 + spec.tolerance))), low_(to_units<Cell>(spec.clamp_low)), high_(to_units<Cell>(spec.clamp_high)) {
-  }
+      : store_(make_store<Cell>(spec.store, to_units<Cell>(0.5 + spec.tolerance))), low_(to_units<Cell>(spec.clamp_low)), high_(to_units<Cell>(spec.clamp_high)) {}
   CellsOf(const CellsOf& other) : store_(other.store_->clone()), low_(other.low_), high_(other.high_) {}
   std::unique_ptr<Cells> clone() const override { return std::make_unique<CellsOf>(*this); }
 

@@ -126,6 +126,26 @@ TEST_CASE("runner: driven by hand, and the wheel given back") {
   CHECK(now->simulation->decision().state != "driven by hand");
 }
 
+TEST_CASE("drive: who gives the wheel back leaves the robot with its own estimate, drift and all, and its map") {
+  const auto mission = read_mission(find_input("foliage_wall/bug2"), {{"odometry.speed_scale", "1.2", "test"}});
+  REQUIRE(mission);
+  auto made = Simulation::create(*mission);
+  REQUIRE(made);
+  Simulation& run = *made;
+  for (int i = 0; i < 40; ++i) run.step();
+  run.drive(Command{0.3, 0.1});
+  for (int i = 0; i < 40; ++i) run.step();
+  const Pose2 estimate = run.estimate();
+  const std::size_t known = run.map().known_cells();
+  CHECK(glm::distance(estimate.position, run.vehicle().pose.position) > 0.1);
+  run.drive(std::nullopt);
+  CHECK_FALSE(run.driven_by_hand());
+  CHECK(run.estimate().position == estimate.position);
+  CHECK(run.map().known_cells() == known);
+  for (int i = 0; i < 10; ++i) run.step();
+  CHECK(run.decision().state != "driven by hand");
+}
+
 TEST_CASE("runner: a world by itself opens with a robot in the open") {
   Runner runner;
   runner.post(Open{"rooms/u_room", {}});

@@ -1,0 +1,10 @@
+// What a mission's planner knows of its vehicle. Private to the room.
+#pragma once
+
+#include "thicket/sim/mission.hpp"
+
+namespace thicket {
+
+VehicleLimits vehicle_limits(const Mission& mission);
+
+}  // namespace thicket
