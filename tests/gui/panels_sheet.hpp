@@ -83,13 +83,4 @@ class Sheet {
   Palette colours_ = palette(true);
 };
 
-inline std::shared_ptr<const Snapshot> opened(Runner& runner, const char* mission, int steps, std::vector<Override> overrides = {}) {
-  runner.post(Open{mission, std::move(overrides)});
-  if (steps > 0) runner.post(StepBy{steps});
-  auto now = runner.settled();
-  INFO(now->message.text);
-  REQUIRE(now->simulation);
-  return now;
-}
-
 }  // namespace thicket::gui::panels

@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include "gui/missions.hpp"
 #include "gui/panels_sheet.hpp"
 #include "thicket/base/files.hpp"
 #include "views/extremes.hpp"
@@ -21,14 +22,6 @@ std::vector<std::unique_ptr<View>> all_views() {
   std::vector<std::unique_ptr<View>> views;
   for (auto* make : {make_radar_view, make_space_view, make_planner_view, make_plots_view, make_profiler_view}) views.push_back(make());
   return views;
-}
-
-std::vector<std::filesystem::path> shipped_missions() {
-  std::vector<std::filesystem::path> missions;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(shipped_root() / "worlds/data"))
-    if (entry.path().extension() == ".toml" && is_mission(entry.path())) missions.push_back(entry.path());
-  std::sort(missions.begin(), missions.end());
-  return missions;
 }
 
 /// A snapshot of a run that somebody made up: nothing but samples matters.

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <thread>
 
+#include "gui/missions.hpp"
 #include "gui/panels_sheet.hpp"
 #include "views/space_view.hpp"
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/desk.hpp"
+#include "missions.hpp"
 #include "temporary_folder.hpp"
 #include "thicket/base/files.hpp"
 #include "thicket/gui/render.hpp"
@@ -16,14 +17,6 @@ namespace thicket::gui {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<fs::path> shipped_missions() {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(shipped_root() / "worlds" / "data"))
-    if (entry.path().extension() == ".toml" && is_mission(entry.path())) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 bool of_one_colour(const Picture& picture) {
   for (std::size_t i = 3; i < picture.rgb.size(); ++i)
@@ -52,6 +45,39 @@ std::pair<int, std::string> call(const std::string& command) {
   const int status = pclose(pipe);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, printed};
 }
+
+/// A session with the window, on a screen of its own (Xvfb), with real clicks and keys (xdotool).
+struct Session {
+  TemporaryFolder folder;
+  nlohmann::json report;
+
+  /// Opens the mission, does what the lines of shell say, and quits by Ctrl+Q. False, with a message, where the programs for it are not there.
+  bool run(const std::string& mission, const std::string& deeds) {
+    for (const char* needed : {"Xvfb", "xdotool"})
+      if (!has_program(needed)) {
+        MESSAGE("skipped: there is no ", needed, " (Debian packages xvfb, xdotool)");
+        return false;
+      }
+    // The server picks a free display and tells it when it listens. Without -noreset it would refuse who comes while it forgets its last client.
+    const fs::path script = folder.write("session.sh", "cd '" + folder.path().string() + R"SH('; export XDG_CONFIG_HOME=$PWD
+mkfifo display
+Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp -noreset -ac 3>display 2>xvfb.log & server=$!
+trap 'kill $server' EXIT
+read -r number <display || { cat xvfb.log; exit 9; }
+export DISPLAY=:$number
+)SH" THICKET_PROGRAM " gui " + mission + R"SH( --report report.json & program=$!
+window() { xdotool search --pid $program 2>/dev/null | tail -n 1; }
+for i in $(seq 200); do [ -n "$(window)" ] && break; kill -0 $program || exit 8; sleep 0.1; done
+sleep 1.5; xdotool windowfocus "$(window)"; sleep 0.3
+)SH" + deeds + "xdotool key ctrl+q; wait $program\n");
+    const auto [code, text] = call("timeout 90 bash '" + script.string() + "'");
+    INFO(text);
+    REQUIRE(code == 0);
+    report = nlohmann::json::parse(*read_text_file(folder.path() / "report.json"));
+    CHECK(report["gl_errors"] == 0);
+    return true;
+  }
+};
 
 }  // namespace
 
@@ -171,9 +197,7 @@ TEST_CASE("offscreen: every view of every shipped mission is drawn, without an e
   const Palette colours = palette(true);
   for (const fs::path& file : shipped_missions()) {
     Runner runner;
-    runner.post(Open{file, {}});
-    runner.post(StepBy{30});
-    const auto now = runner.settled();
+    const auto now = opened(runner, file, 30);
     CAPTURE(file.string());
     REQUIRE(now->simulation);
     for (const auto& view : make_views()) {
@@ -267,67 +291,38 @@ TEST_CASE("gui: without a screen it says what to do; render says what it expects
 }
 
 TEST_CASE("gui: a real session: played, paused, stepped back, photographed, saved, quit by keys") {
-  for (const char* needed : {"xvfb-run", "xauth", "xdotool"})
-    if (!has_program(needed)) {
-      MESSAGE("skipped: there is no ", needed, " (Debian packages xvfb, xauth, xdotool)");
-      return;
-    }
-  const TemporaryFolder folder;
-  const fs::path script = folder.write("session.sh",
-                                       "cd '" + folder.path().string() + "'; export XDG_CONFIG_HOME=$PWD\n" THICKET_PROGRAM " gui rooms/u --report report.json & program=$!\n"
-                                       "window() { xdotool search --pid $program 2>/dev/null | tail -n 1; }\n"
-                                       "for i in $(seq 200); do [ -n \"$(window)\" ] && break; sleep 0.1; done\n"
-                                       "sleep 1.5; xdotool windowfocus \"$(window)\"; sleep 0.3\n"
-                                       "xdotool key space; sleep 2; xdotool key space; sleep 0.5\n"
-                                       "xdotool key shift+Left; sleep 0.5\n"
-                                       "xdotool key F12; for i in $(seq 50); do [ -f thicket-picture-001.png ] && break; sleep 0.1; done\n"
-                                       "xdotool key ctrl+s; sleep 0.7; xdotool key Return; sleep 0.5\n"
-                                       "xdotool key ctrl+q; wait $program\n");
-  const auto [code, text] = call("timeout 90 xvfb-run -a -s '-screen 0 1280x800x24' bash '" + script.string() + "'");
-  INFO(text);
-  CHECK(code == 0);
-  const auto report = read_text_file(folder.path() / "report.json");
-  REQUIRE(report);
-  const auto json = nlohmann::json::parse(*report);
-  CHECK(json["mission"] == "u");
-  CHECK(json["newest_step"] >= 12);
-  CHECK(json["steps"] == static_cast<std::int64_t>(json["newest_step"]) - 10);
-  CHECK(json["gl_errors"] == 0);
-  CHECK(json["frames"] > 10);
-  CHECK(fs::exists(folder.path() / "thicket-picture-001.png"));
-  CHECK(is_mission(folder.path() / "u-changed.toml"));
-  CHECK(fs::exists(folder.path() / "thicket" / "window.json"));
+  Session session;
+  if (!session.run("rooms/u", R"SH(xdotool key space; sleep 2; xdotool key space; sleep 0.5
+xdotool key shift+Left; sleep 0.5
+xdotool key F12; for i in $(seq 50); do [ -f thicket-picture-001.png ] && break; sleep 0.1; done
+xdotool key ctrl+s; sleep 0.7; xdotool key Return; sleep 0.5
+)SH"))
+    return;
+  CHECK(session.report["mission"] == "u");
+  CHECK(session.report["newest_step"] >= 12);
+  CHECK(session.report["steps"] == session.report["newest_step"].get<std::int64_t>() - 10);
+  CHECK(session.report["frames"] > 10);
+  const fs::path folder = session.folder.path();
+  CHECK(fs::exists(folder / "thicket-picture-001.png"));
+  CHECK(is_mission(folder / "u-changed.toml"));
+  CHECK(fs::exists(folder / "thicket" / "window.json"));
 }
 
 TEST_CASE("gui: a real session: a double click sets the goal, and the robot goes there") {
-  for (const char* needed : {"xvfb-run", "xauth", "xdotool"})
-    if (!has_program(needed)) {
-      MESSAGE("skipped: there is no ", needed, " (Debian packages xvfb, xauth, xdotool)");
-      return;
-    }
-  const TemporaryFolder folder;
+  Session session;
   // The window opens at 1280 x 800 with the world to the left, fitted: (-8, -5) m is in the open below the start.
-  const fs::path script = folder.write("session.sh",
-                                       "cd '" + folder.path().string() + "'; export XDG_CONFIG_HOME=$PWD\n" THICKET_PROGRAM " gui foliage_wall/bug2 --report report.json & program=$!\n"
-                                       "window() { xdotool search --pid $program 2>/dev/null | tail -n 1; }\n"
-                                       "for i in $(seq 200); do [ -n \"$(window)\" ] && break; sleep 0.1; done\n"
-                                       "sleep 1.5; xdotool windowfocus \"$(window)\"; sleep 0.3\n"
-                                       "xdotool mousemove 160 571; sleep 0.3; xdotool click --repeat 2 --delay 80 1; sleep 0.5\n"
-                                       "for i in 1 2 3 4 5 6 7 8; do xdotool key plus; sleep 0.1; done\n"
-                                       "xdotool key space; sleep 2\n"
-                                       "xdotool key ctrl+q; wait $program\n");
-  const auto [code, text] = call("timeout 90 xvfb-run -a -s '-screen 0 1280x800x24' bash '" + script.string() + "'");
-  INFO(text);
-  CHECK(code == 0);
-  const auto report = read_text_file(folder.path() / "report.json");
-  REQUIRE(report);
-  INFO(*report);
-  const auto json = nlohmann::json::parse(*report);
-  REQUIRE(json["goal_m"].is_array());
-  CHECK(std::abs(json["goal_m"][0].get<double>() + 8.0) < 1.0);
-  CHECK(std::abs(json["goal_m"][1].get<double>() + 5.0) < 1.0);
-  CHECK(std::hypot(json["position_m"][0].get<double>() - json["goal_m"][0].get<double>(), json["position_m"][1].get<double>() - json["goal_m"][1].get<double>()) < 0.2);
-  CHECK(json["gl_errors"] == 0);
+  if (!session.run("foliage_wall/bug2", R"SH(xdotool mousemove 160 571; sleep 0.3; xdotool click --repeat 2 --delay 80 1; sleep 0.5
+for i in 1 2 3 4 5 6 7 8; do xdotool key plus; sleep 0.1; done
+xdotool key space; sleep 2
+)SH"))
+    return;
+  const auto& report = session.report;
+  INFO(report.dump());
+  REQUIRE(report["goal_m"].is_array());
+  const auto at = [&](const char* what, int i) { return report[what][i].get<double>(); };
+  CHECK(std::abs(at("goal_m", 0) + 8.0) < 1.0);
+  CHECK(std::abs(at("goal_m", 1) + 5.0) < 1.0);
+  CHECK(std::hypot(at("position_m", 0) - at("goal_m", 0), at("position_m", 1) - at("goal_m", 1)) < 0.2);
 }
 
 }  // namespace thicket::gui
