@@ -117,6 +117,22 @@ void add_picture(CLI::App& app, PictureArguments& a) {
   app.add_option("--map-image", a.map_image, "for a map_server world: an image instead of the one that it names")->type_name("FILE");
 }
 
+void add_generate(CLI::App& app, GenerateArguments& a) {
+  app.add_option("name", a.name, "model (default: a list of them)")->type_name("NAME");
+  app.add_option("--out", a.out, "OBJ file to write; the MTL file goes beside it")->type_name("FILE.obj");
+  const auto size = [&](const char* flag, double& metres, const char* what) { app.add_option(flag, metres, std::string("of the hold, metres: ") + what)->check(CLI::PositiveNumber)->capture_default_str()->type_name("M"); };
+  size("--length", a.hold.length, "inside");
+  size("--breadth", a.hold.breadth, "inside");
+  size("--depth", a.hold.depth, "from the tank top to the open deck");
+  size("--plate", a.hold.plate, "thickness of all plates");
+  size("--frame-spacing", a.hold.frame_spacing, "between web frames, at most");
+  size("--frame-depth", a.hold.frame_depth, "of web frames, inward");
+  size("--flange-width", a.hold.flange_width, "of the web frames' flanges");
+  size("--stiffener-spacing", a.hold.stiffener_spacing, "between stiffeners, at most");
+  size("--stiffener-depth", a.hold.stiffener_depth, "of stiffeners, inward");
+  size("--deck-width", a.hold.deck_width, "of the strip of deck outside");
+}
+
 void add_scan(CLI::App& app, ScanArguments& a) {
   app.add_option("world", a.world, "world file, map_server YAML, MovingAI .map or OBJ; shipped ones are found from any directory")->type_name("FILE");
   app.add_option("--pose", a.pose, "where the sensor itself is (its mount on a vehicle is left out): metres, z above the world's zero, degrees, pitch nose down")->type_name("X,Y,Z,YAW_DEG[,PITCH_DEG]");
@@ -240,6 +256,9 @@ int dispatch(int argc, char** argv) {
   PictureArguments picture_arguments;
   CLI::App& picture = *app.add_subcommand("picture", "draw what a world looks like, with the rays of the simulator");
   add_picture(picture, picture_arguments);
+  GenerateArguments generate_arguments;
+  CLI::App& generate = *app.add_subcommand("generate", "write a model that Thicket makes itself (a barge's hold, a car, a postbox, ...) as an OBJ file for worlds");
+  add_generate(generate, generate_arguments);
   CLI::App& worlds = *app.add_subcommand("worlds", "list the worlds and missions that are shipped");
   MaterialsArguments materials_arguments;
   CLI::App& materials = *app.add_subcommand("materials", "print the shipped materials, or those of a world, as a radar of some frequency meets them");
@@ -294,6 +313,10 @@ int dispatch(int argc, char** argv) {
   if (truth.parsed()) return write_truth(truth_arguments);
   if (convert.parsed()) return convert_map(convert_arguments);
   if (picture.parsed()) return draw_picture(picture_arguments);
+  if (generate.parsed()) {
+    for (const CLI::Option* option : generate.get_options()) generate_arguments.hold_changed |= option->count() > 0 && option->get_name() != "--out" && option->get_name() != "name";
+    return generate_model(generate_arguments);
+  }
   if (worlds.parsed()) return list_worlds();
   if (materials.parsed()) return list_materials(materials_arguments);
   if (scan.parsed()) return measure_scans(scan_arguments);

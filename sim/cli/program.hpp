@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "thicket/sim/mission.hpp"
+#include "thicket/worlds/models.hpp"
 
 namespace thicket::cli {
 
@@ -74,6 +75,13 @@ struct MaterialsArguments {
   std::optional<double> thickness_m;
 };
 int list_materials(const MaterialsArguments& arguments);
+
+struct GenerateArguments {
+  std::string name, out;       ///< of a model; empty: list them
+  HoldSpec hold;
+  bool hold_changed = false;   ///< a size of the hold was given
+};
+int generate_model(const GenerateArguments& arguments);
 
 struct PictureArguments {
   std::string world, out, map_image;
