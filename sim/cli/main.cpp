@@ -184,6 +184,15 @@ void add_reachability(CLI::App& app, ReachabilityArguments& a) {
              "theorem's bound + 2 m. Exit codes: 0 nothing is wrong or over, 2 bad usage or file, 4 interrupted, 6 something is wrong or over.");
 }
 
+void add_experiments(CLI::App& app, ExperimentsArguments& a) {
+  app.add_option("names", a.names, "experiments to make (default: all)")->type_name("NAME");
+  app.add_flag("--list", a.list, "list them, with the figures of the sources that they stand for");
+  app.add_option("--out", a.out, "folder for the pictures (default: docs/experiments if called in the source tree, else thicket-out/experiments)")->type_name("DIR");
+  app.add_option("--page", a.page, "page in which their sections are replaced or put (default: docs/experiments.md in the tree, else experiments.md beside the pictures)")->type_name("FILE.md");
+  app.add_flag("--short", a.brief, "shorter drives and fewer scans: other numbers, for tests");
+  app.add_flag("--quiet", a.quiet, "no progress");
+}
+
 void add_score(CLI::App& app, ScoreArguments& a) {
   app.add_option("run_dir", a.folder, "folder that `thicket run` has written; the run is simulated once more, since its files do not hold probabilities")->required()->type_name("RUN_DIR");
   app.add_option("--truth", a.truth, "when a cell is matter: cell_centre: its centre lies in it; any_overlap: it and matter share any area")->capture_default_str();
@@ -274,6 +283,9 @@ int dispatch(int argc, char** argv) {
   ReachabilityArguments reachability_arguments;
   CLI::App& reachability = *app.add_subcommand("reachability", "run planners on many problems and judge them by the world itself: verdicts, collisions, lengths (exit code 6: something is wrong)");
   add_reachability(reachability, reachability_arguments);
+  ExperimentsArguments experiments_arguments;
+  CLI::App& experiments = *app.add_subcommand("experiments", "make the experiments of Rozeboom 2012 and Billdal 2018: a page with pictures and tables, a section a figure");
+  add_experiments(experiments, experiments_arguments);
   CLI::App& help = *app.add_subcommand("help", "explain every key of a mission or world file");
   help.add_option("topic", topic, "mission or world")->required();
   bool markdown = false;
@@ -322,6 +334,7 @@ int dispatch(int argc, char** argv) {
   if (scan.parsed()) return measure_scans(scan_arguments);
   if (sensors.parsed()) return list_sensors(sensor_name);
   if (reachability.parsed()) return study_reachability(reachability_arguments);
+  if (experiments.parsed()) return make_experiments(experiments_arguments);
   return help_topic(topic, markdown);
 }
 

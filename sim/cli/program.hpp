@@ -125,6 +125,13 @@ struct ReachabilityArguments {
 /// 0: nothing is wrong, 6: something is.
 int study_reachability(const ReachabilityArguments& arguments);
 
+struct ExperimentsArguments {
+  std::vector<std::string> names;  ///< empty: all
+  std::string out, page;           ///< empty: docs/experiments in the tree, else thicket-out/experiments
+  bool list = false, brief = false, quiet = false;
+};
+int make_experiments(const ExperimentsArguments& arguments);
+
 struct GuiArguments {
   std::string file;  ///< mission or world; empty: the window asks
   std::vector<Override> overrides;
