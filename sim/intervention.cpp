@@ -63,6 +63,7 @@ Result<Simulation> Simulation::changed(const Mission& mission, Scene scene, cons
   if (odometry_stays && !pose) next.odometry_ = odometry_;
   else next.odometry_ = Odometry(is.odometry, pose ? *pose : estimate(), static_cast<std::uint64_t>(is.seed));
   if (same(map_section(), was.map, is.map) && was.initial_map_file == is.initial_map_file) next.map_ = map_;
+  if (next.sar_ && sar_ && same(sar_section(), was.sar, is.sar) && next.sar_->method() == sar_->method() && next.sar_->frequency_ghz() == sar_->frequency_ghz() && next.stage_->sar_sensor == stage_->sar_sensor) next.sar_ = sar_;
   // Sensors go on at their rates; what they sensed last stays in view as long as there are as many of them.
   const bool as_many = stage_->sensors.size() == next.stage_->sensors.size();
   for (std::size_t i = 0; i < next.scan_counts_.size(); ++i) {
@@ -123,6 +124,10 @@ std::uint64_t state_hash(const Simulation& simulation) {
     for (const double x : {mark.from.x, mark.from.y, mark.to.x, mark.to.y}) hash.number(x);
   const std::vector<std::uint8_t> map = simulation.map().changes_since(OccupancyMap(simulation.mission().map));
   hash.bytes(map.data(), map.size());
+  if (const SarImage* sar = simulation.sar()) {
+    hash.number(sar->scans());
+    for (const float a : sar->grid().amplitude) hash.number(a);
+  }
   const RunTotals& totals = simulation.totals();
   for (const double x : {totals.path_length, totals.least_clearance}) hash.number(x);
   for (const std::uint64_t n : {totals.scans, totals.rays, totals.decisions}) hash.number(n);

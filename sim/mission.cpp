@@ -8,6 +8,7 @@
 #include "thicket/base/files.hpp"
 #include "thicket/base/text.hpp"
 #include "thicket/sim/mission_parts.hpp"
+#include "thicket/sim/sar.hpp"
 
 namespace thicket {
 namespace {
@@ -73,7 +74,8 @@ const std::vector<Part>& parts() {
       {"vehicle", &vehicle_section, [](Mission& m) -> void* { return &m.vehicle; }}, {"start", &start_section, [](Mission& m) -> void* { return &m.start; }},
       {"bumpers", &bumper_section, [](Mission& m) -> void* { return &m.bumpers; }},  {"planner", &planner_section, [](Mission& m) -> void* { return &m.planner; }},
       {"odometry", &odometry_section, [](Mission& m) -> void* { return &m.odometry; }},
-      {"map", &map_section, [](Mission& m) -> void* { return &m.map; }},             {"limits", &limit_section, [](Mission& m) -> void* { return &m.limits; }},
+      {"map", &map_section, [](Mission& m) -> void* { return &m.map; }},             {"sar", &sar_section, [](Mission& m) -> void* { return &m.sar; }},
+      {"limits", &limit_section, [](Mission& m) -> void* { return &m.limits; }},
       {"output", &output_section, [](Mission& m) -> void* { return &m.output; }},
   };
   return list;
@@ -214,6 +216,7 @@ void check_together(const Node& root, const Mission& mission, Faults& faults) {
   for (const std::string& name : names_in(mission.output.map_formats))
     if (std::ranges::find(map_format_names(), name) == map_format_names().end())
       faults.add(place("output"), fmt::format("'map_formats' names '{}', expected names separated by commas, of '{}'{}", name, fmt::join(map_format_names(), "', '"), did_you_mean(name, map_format_names())));
+  if (const auto fault = sar_fault(mission)) faults.add(place("sar"), *fault);
   if (const auto& r = mission.output.observed_region_m; r && (r->z - r->x) * (r->w - r->y) > 1e7 * mission.map.resolution_m * mission.map.resolution_m)
     faults.add(place("output"), "'observed_region_m' has more than 10 million cells, expected a smaller one");
   if (const auto& r = mission.output.observed_region_m; r && !(r->x < r->z && r->y < r->w))

@@ -71,7 +71,7 @@ Result<Simulation> Simulation::create(const Mission& given, Scene scene) {
   for (const SensorSpec& spec : mission.sensors) sensors.push_back(make_sensor(spec, static_cast<std::uint16_t>(sensors.size())));
   auto planner = make_planner(mission.planner, vehicle_limits(mission), start_pose(mission));
   if (!planner) return planner.error();
-  Simulation simulation(std::make_shared<const Stage>(Stage{mission, std::move(scene), std::move(sensors), bumper_sensors(mission)}), std::move(*planner));
+  Simulation simulation(std::make_shared<const Stage>(Stage{mission, std::move(scene), std::move(sensors), bumper_sensors(mission), mission.sar.enabled ? sar_sensor(mission) : std::nullopt}), std::move(*planner));
   if (!mission.initial_map_file.empty()) {
     ProbabilityReading reading;
     if (mission.initial_map_file.extension() == ".npy") reading.cell_size = mission.map.resolution_m;  // it has none of its own
@@ -89,6 +89,7 @@ Simulation::Simulation(std::shared_ptr<const Stage> stage, std::unique_ptr<Plann
       bumpers_(make_bumpers(stage_->mission)),
       readers_(stage_->sensors.size()),
       map_(stage_->mission.map),
+      sar_(begin_sar(stage_->mission)),
       scans_(stage_->sensors.size()),
       scan_counts_(stage_->sensors.size()),
       scan_estimates_(stage_->sensors.size()),
@@ -112,6 +113,7 @@ Simulation::Simulation(const Simulation& other)
       contour_(other.contour_),
       readers_(other.readers_),
       map_(other.map_),
+      sar_(other.sar_),
       scans_(other.scans_),
       scan_counts_(other.scan_counts_),
       scan_estimates_(other.scan_estimates_),
@@ -176,6 +178,10 @@ void Simulation::sense() {
     if (stage_->mission.map.enabled) {
       const Stopwatch watch(times_.map);
       map_.integrate(scans_[i], in_space(estimate()));
+    }
+    if (stage_->sar_sensor == i) {
+      const Stopwatch watch(times_.sar);
+      sar_->add(scans_[i], platform().pose * Pose{scans_[i].mount_position, scans_[i].mount_orientation});
     }
   }
   if (decides) decide();

@@ -20,7 +20,7 @@ View* find(const std::vector<std::unique_ptr<View>>& views, const char* name) {
 
 std::vector<std::unique_ptr<View>> make_views() {
   std::vector<std::unique_ptr<View>> views;
-  for (auto* make : {make_world_view, make_space_view, make_map_view, make_radar_view, make_mission_view, make_edit_view, make_planner_view, make_plots_view, make_profiler_view}) views.push_back(make());
+  for (auto* make : {make_world_view, make_space_view, make_map_view, make_radar_view, make_sar_view, make_mission_view, make_edit_view, make_planner_view, make_plots_view, make_profiler_view}) views.push_back(make());
   return views;
 }
 
@@ -39,7 +39,7 @@ Workbench::Workbench(Runner& runner, Settings settings, bool still) : runner_(ru
     return p;
   };
   left_ = pane({"world", "3d"}, settings_.left_view);
-  upper_ = pane({"map", "radar", "mission", "edit"}, settings_.upper_view);
+  upper_ = pane({"map", "radar", "sar", "mission", "edit"}, settings_.upper_view);
   lower_ = pane({"planner", "plots", "profiler"}, settings_.lower_view);
 }
 

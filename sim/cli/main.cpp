@@ -200,6 +200,19 @@ void add_score(CLI::App& app, ScoreArguments& a) {
   app.add_flag("--json", a.json, "print all figures as JSON");
 }
 
+void add_sar(CLI::App& app, SarArguments& a) {
+  app.add_option("input", a.input, "folder that `thicket run` has written, or a mission; it is simulated once more")->required()->type_name("RUN_DIR|MISSION");
+  app.add_option("--method", a.method, "simple_sum or back_projection, which needs signal = \"iq\" (default: back_projection where it can be)")->type_name("NAME");
+  app.add_option("--sensor", a.sensor, "name of the lobe radar (default: the first)")->type_name("NAME");
+  app.add_option("--frame", a.frame, "world or line: across and along the way that the lobe looks at first")->type_name("NAME");
+  app.add_option("--bounds", a.bounds, "of the image, metres (default: all that comes into the lobe)")->type_name("X0,Y0,X1,Y1");
+  app.add_option("--resolution", a.resolution, "edge of a pixel, metres (default: 0.02)")->type_name("M");
+  app.add_option("--floor-db", a.floor_db, "down to what is shown, against the brightest pixel (default: -40)")->type_name("DB");
+  app.add_flag("--fuse", a.fuse, "also take cells off the map where the image has no return: map_fused.pgm, and how good the map is before and after");
+  app.add_option("--out", a.out, "folder for sar.png, sar.npy and sar.json (default: RUN_DIR, of a mission thicket-out/NAME)")->type_name("DIR");
+  app.add_flag("--json", a.json, "print sar.json instead of a few lines");
+}
+
 void add_gui(CLI::App& app, GuiArguments& a) {
   app.add_option("file", a.file, "mission or world file; shipped ones are found from any directory. Without one the window asks")->type_name("MISSION|WORLD");
   app.add_option("--report", a.report, "at the end, write how the session ended as JSON: file, mission, steps, time, goal, position, verdict, frames, milliseconds a frame, OpenGL errors")->type_name("FILE.json");
@@ -208,7 +221,7 @@ void add_gui(CLI::App& app, GuiArguments& a) {
 
 void add_render(CLI::App& app, RenderArguments& a) {
   app.add_option("file", a.file, "mission or world file, or the folder of a run, which is simulated once more")->required()->type_name("MISSION|RUN_DIR");
-  app.add_option("--view", a.view, "world, 3d, map, radar, mission, edit, planner, plots, profiler, or all: the whole window")->capture_default_str()->type_name("NAME");
+  app.add_option("--view", a.view, "world, 3d, map, radar, sar, mission, edit, planner, plots, profiler, or all: the whole window")->capture_default_str()->type_name("NAME");
   app.add_option("--at", a.at, "simulated seconds (default: the end of the run, which also comes where it ends before)")->type_name("S");
   app.add_option("--out", a.out, "picture to write")->required()->type_name("FILE.png");
   app.add_option("--size", a.size, "pixels")->capture_default_str()->type_name("WIDTHxHEIGHT");
@@ -249,6 +262,12 @@ int dispatch(int argc, char** argv) {
   ScoreArguments score_arguments;
   CLI::App& score = *app.add_subcommand("score", "how good the map of a run is, judged by the world itself (exit code 6: the run gives another map than the one in its folder)");
   add_score(score, score_arguments);
+
+  SarArguments sar_arguments;
+  MissionFlags sar_flags;
+  CLI::App& sar = *app.add_subcommand("sar", "the image of synthetic aperture of a run: what one lobe saw along its way, laid together");
+  add_sar(sar, sar_arguments);
+  sar_flags.add_to(sar);
 
   std::string topic;
   CheckArguments check_arguments;
@@ -314,6 +333,12 @@ int dispatch(int argc, char** argv) {
     return gui.parsed() ? open_window(gui_arguments) : render_views(render_arguments);
   }
   if (score.parsed()) return score_folder(score_arguments);
+  if (sar.parsed()) {
+    auto overrides = sar_flags.overrides();
+    if (!overrides) return bad_input;
+    sar_arguments.overrides = std::move(*overrides);
+    return image_run(sar_arguments);
+  }
   if (check.parsed()) {
     auto overrides = check_flags.overrides();
     if (!overrides) return bad_input;

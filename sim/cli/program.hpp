@@ -35,6 +35,14 @@ struct ScoreArguments {
   bool json = false;
 };
 
+struct SarArguments {
+  std::string input;  ///< folder of a run, or mission
+  std::string method, sensor, frame, bounds, out;  ///< empty: as the mission has it
+  std::optional<double> resolution, floor_db;      ///< m, dB
+  bool fuse = false, json = false;
+  std::vector<Override> overrides;
+};
+
 struct TruthArguments {
   std::string world, out, map_image;
   double resolution = 0.05, grow = 0.0, z_low = 0.0, z_high = 0.5, time = 0.0;  ///< m, s
@@ -63,6 +71,8 @@ struct CheckArguments {
 int run_mission(const RunArguments& arguments);
 /// Runs what a folder holds once more and scores its map: 0, or 6 if that is not the map in the folder.
 int score_folder(const ScoreArguments& arguments);
+/// Simulates a run once more and writes its image.
+int image_run(const SarArguments& arguments);
 int check_file(const CheckArguments& arguments);
 /// A world as a map or a picture, and whether there is a way: 0 if there is, 3 if not.
 int write_truth(const TruthArguments& arguments);

@@ -110,7 +110,7 @@ std::vector<Experiment> strafe_experiments2018() {
 
 std::vector<Experiment> billdal2018_experiments() {
   std::vector<Experiment> all;
-  for (auto* part : {strafe_experiments2018, room_experiments2018, cost_experiments2018})
+  for (auto* part : {strafe_experiments2018, sar_experiments2018, room_experiments2018, cost_experiments2018})
     for (Experiment& experiment : part()) all.push_back(std::move(experiment));
   return all;
 }

@@ -8,6 +8,7 @@
 namespace thicket {
 
 std::vector<Experiment> strafe_experiments2018();
+std::vector<Experiment> sar_experiments2018();
 std::vector<Experiment> room_experiments2018();
 std::vector<Experiment> cost_experiments2018();
 

@@ -14,6 +14,7 @@
 #include "thicket/radar/sensor.hpp"
 #include "thicket/sim/mission.hpp"
 #include "thicket/sim/odometry.hpp"
+#include "thicket/sim/sar.hpp"
 #include "thicket/sim/vehicle.hpp"
 #include "thicket/worlds/scene.hpp"
 
@@ -31,7 +32,7 @@ const char* to_string(Verdict::Kind kind);
 
 /// Wall time spent in the parts of a run, s.
 struct PhaseTimes {
-  double trace = 0.0, map = 0.0, plan = 0.0, contact = 0.0;
+  double trace = 0.0, map = 0.0, plan = 0.0, contact = 0.0, sar = 0.0;
 };
 
 /// What a run adds up.
@@ -47,6 +48,7 @@ struct Stage {
   Scene scene;  ///< as it is at time 0; each simulation has its own, whose solids move
   std::vector<std::shared_ptr<const Sensor>> sensors;
   std::vector<std::size_t> bumper_sensors;  ///< places in `sensors`; the planner decides when the first of them has scanned
+  std::optional<std::size_t> sar_sensor;    ///< place in `sensors` of the one whose scans make the image, if there is to be one
 };
 
 class Simulation {
@@ -98,6 +100,7 @@ class Simulation {
   const std::vector<Scan>& scans() const { return scans_; }  ///< the last scan of each sensor; without beams before the first
   const BumperRing& bumpers() const { return bumpers_; }
   const OccupancyMap& map() const { return map_; }
+  const SarImage* sar() const { return sar_ ? &*sar_ : nullptr; }  ///< null unless [sar] is enabled
   const Decision& decision() const { return decision_; }  ///< the planner's last
   std::vector<Mark> marks() const { return planner_->marks(); }
 
@@ -122,6 +125,7 @@ class Simulation {
   Contour contour_;
   std::vector<ContourReader> readers_;      ///< one per sensor
   OccupancyMap map_;
+  std::optional<SarImage> sar_;
   std::vector<Scan> scans_;
   std::vector<std::uint64_t> scan_counts_;
   std::vector<Pose2> scan_estimates_;       ///< where the robot believed to be at each sensor's last scan
