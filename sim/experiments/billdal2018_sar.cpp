@@ -91,12 +91,12 @@ std::string room_image(ExperimentContext& context) {
   std::string text;
   Sheet sheet;
   sheet.width = 900;
-  sheet.title = "The test room by its left lobe";
+  sheet.title = "The test room by its right lobe";
   std::vector<Panel> panels;
   std::vector<TableRow> rows;
   for (const char* method : {"simple_sum", "back_projection"}) {
     std::vector<std::string> sets = {std::string("sar.method=") + method, "sar.sensor=right", "sar.bounds_m=[-5.5, -4.5, 5.5, 4.5]", "sar.resolution_m=0.05"};
-    if (std::string(method) == "back_projection") sets.push_back("sensor.iq=true");
+    if (std::string(method) == "back_projection") sets.push_back("sensor.signal=iq");
     if (context.brief()) sets.push_back("limits.time_s=4");
     const Image image = image_after(context, method, "ntnu_room/ntnu_room", sets);
     rows.push_back({method, std::to_string(image.scans)});
