@@ -77,7 +77,7 @@ TEST_CASE("sar: the strafing mission's image shows posts and plate where they ar
 
   const auto report = report_sar(run);
   REQUIRE(report);
-  for (const glm::dvec2 post : {glm::dvec2(1.95, 0.5), glm::dvec2(1.95, 0.0)}) {
+  for (const glm::dvec2 post : {glm::dvec2(2.0, 0.55), glm::dvec2(2.0, 0.05)}) {
     const SarPeak* peak = peak_near(*report, post, 0.04);
     REQUIRE(peak);
     CHECK(peak->db > -12.0);
