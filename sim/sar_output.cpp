@@ -58,7 +58,7 @@ Result<Done> write_picture(const std::filesystem::path& file, const Simulation& 
       plot.values.push_back(static_cast<float>(a > 0.0 && brightest > 0.0 ? std::max(floor_db, 20.0 * std::log10(a / brightest)) : floor_db));
     }
   }
-  plot.series.push_back({"way of the sensor", Series::Kind::line, {1.0, 1.0, 1.0}, image.track()});
+  plot.series.push_back({"way of the sensor", Series::Kind::line, {0.835, 0.369, 0.0}, image.track()});
   // The axes as long as what they measure: what is left and right of them, and above and below, is about as wide as this.
   const double across = grid.width, upward = grid.height, scale = std::min(760.0 / across, 900.0 / upward);
   Sheet sheet;
