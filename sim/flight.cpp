@@ -133,10 +133,10 @@ FlightState fly_kinematic(const FlightState& now, const Wanted& wanted, double t
   const glm::dvec2 was(now.velocity), change = wanted.velocity - was;
   const double size = glm::length(change);
   const glm::dvec2 along = size > 0.0 ? change / size : glm::dvec2(0.0);
-  const Axis flat = first_order({}, size, lag, sideward_max(spec), step);
-  const Axis begin{now.position.z, now.velocity.z};
+  const Coordinate flat = first_order({}, size, lag, sideward_max(spec), step);
+  const Coordinate begin{now.position.z, now.velocity.z};
   const bool up = wanted.climb > begin.velocity;
-  const Axis vertical = wanted.altitude ? hold_altitude(begin, {*wanted.altitude, spec.altitude_gain_1_s, spec.climb_rate_max_m_s, lag, upward_max(spec), downward_max(spec)}, step)
+  const Coordinate vertical = wanted.altitude ? hold_altitude(begin, {*wanted.altitude, spec.altitude_gain_1_s, spec.climb_rate_max_m_s, lag, upward_max(spec), downward_max(spec)}, step)
                                         : first_order(begin, wanted.climb, lag, up ? upward_max(spec) : downward_max(spec), step);
   next.position = {glm::dvec2(now.position) + was * step + along * flat.position, vertical.position};
   next.velocity = {was + along * flat.velocity, vertical.velocity};

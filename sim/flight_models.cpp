@@ -13,8 +13,8 @@
 
 namespace thicket {
 
-Axis first_order(const Axis& begin, double wanted, double lag, double limit, double time) {
-  Axis now = begin;
+Coordinate first_order(const Coordinate& begin, double wanted, double lag, double limit, double time) {
+  Coordinate now = begin;
   const double difference = wanted - begin.velocity, far = std::abs(difference) - limit * lag;
   if (far > 0.0) {
     // Until the difference is what the limit allows, the acceleration is the limit.
@@ -35,10 +35,10 @@ namespace {
 /// One piece of an altitude hold: while it lasts, altitude and climb rate are a closed form of time.
 struct HoldPiece {
   enum class Kind { limited, far, near } kind;  ///< acceleration at its limit; climb rate asked for at its limit; neither
-  Axis begin;
+  Coordinate begin;
   double value = 0.0;  ///< the acceleration or the climb rate that is at its limit
 
-  Axis at(const AltitudeHold& hold, double t) const {
+  Coordinate at(const AltitudeHold& hold, double t) const {
     if (kind == Kind::limited) return {begin.position + (begin.velocity + 0.5 * value * t) * t, begin.velocity + value * t};
     if (kind == Kind::far) return first_order(begin, value, hold.lag, INFINITY, t);
     // e'' + e'/lag + gain/lag e = 0, e = altitude - target.
@@ -52,7 +52,7 @@ struct HoldPiece {
 };
 
 /// Which piece a state is in.
-HoldPiece piece_of(const AltitudeHold& hold, const Axis& now) {
+HoldPiece piece_of(const AltitudeHold& hold, const Coordinate& now) {
   const double asked = hold.gain * (hold.target - now.position), climb = std::clamp(asked, -hold.rate_max, hold.rate_max), a = (climb - now.velocity) / hold.lag;
   if (a >= hold.up_max) return {HoldPiece::Kind::limited, now, hold.up_max};
   if (a <= -hold.down_max) return {HoldPiece::Kind::limited, now, -hold.down_max};
@@ -64,11 +64,11 @@ bool same_piece(const HoldPiece& a, const HoldPiece& b) { return a.kind == b.kin
 
 }  // namespace
 
-Axis hold_altitude(const Axis& begin, const AltitudeHold& hold, double time) {
+Coordinate hold_altitude(const Coordinate& begin, const AltitudeHold& hold, double time) {
   constexpr double exact = 1e-14;
   // A piece is looked at in stretches that are short against how fast pieces can come and go.
   const double stretch = 0.25 * hold.lag;
-  Axis now = begin;
+  Coordinate now = begin;
   HoldPiece piece = piece_of(hold, now);
   double in_piece = 0.0;
   while (time > 0.0) {

@@ -62,12 +62,12 @@ std::optional<std::string> vehicle_fault(const VehicleSpec& spec, const FlightMo
 /// ordinary differential equations II", IV.2); 0: the loop itself is not stable.
 double longest_stable_step(const VehicleSpec& spec);
 
-/// Position and motion of one coordinate.
-struct Axis {
+/// A coordinate and how fast it changes.
+struct Coordinate {
   double position = 0.0, velocity = 0.0;
 };
 /// A constant velocity `wanted` for `time` s, with a response of the first order of time constant `lag` and an acceleration of at most `limit`, in closed form.
-Axis first_order(const Axis& begin, double wanted, double lag, double limit, double time);
+Coordinate first_order(const Coordinate& begin, double wanted, double lag, double limit, double time);
 
 /// How an altitude is held: the climb rate that is asked for is gain * (target - altitude), at most `rate_max`.
 struct AltitudeHold {
@@ -75,7 +75,7 @@ struct AltitudeHold {
   double up_max = 5.0, down_max = 5.0;  ///< m/s^2
 };
 /// In closed form too: it is piecewise linear, and the pieces are joined where one ends (to 1e-14 s).
-Axis hold_altitude(const Axis& begin, const AltitudeHold& hold, double time);
+Coordinate hold_altitude(const Coordinate& begin, const AltitudeHold& hold, double time);
 
 /// A quadrotor in space. The pose is that of its centre of mass's foot point: the body turns about it, the hull does not tilt.
 struct FlightState {
