@@ -152,15 +152,19 @@ std::array<Complex, 3> cubic_roots(double a, double b, double c) {
 }
 
 /// Eigenvalues of the closed loop about hovering.
-std::array<Complex, 6> closed_loop(const VehicleSpec& spec) {
+std::array<Complex, 9> closed_loop(const VehicleSpec& spec) {
   const double gain = spec.velocity_gain_1_s.value_or(1.0 / spec.velocity_time_s);
-  // In the plane: acceleration g * tilt, which follows the one that is asked for, gain * (0 - velocity), by the attitude's PD. Vertically the velocity's first order and the altitude's gain before it.
-  const auto plane = cubic_roots(spec.attitude_rate_gain_1_s, spec.attitude_gain_1_s2, spec.attitude_gain_1_s2 * gain);
+  // In the plane: acceleration g * tilt - d * velocity (d: drag by mass), with a tilt that follows the one that is asked for, ((d - gain) * velocity) / g, by the attitude's PD:
+  // (s + d) (s^2 + rate_gain s + attitude_gain) + attitude_gain (gain - d) = 0. Vertically the velocity's first order and the altitude's gain before it.
+  const auto plane = [&](double d) {
+    return cubic_roots(spec.attitude_rate_gain_1_s + d, spec.attitude_gain_1_s2 + spec.attitude_rate_gain_1_s * d, spec.attitude_gain_1_s2 * gain);
+  };
+  const auto along = plane(spec.drag_axes().x / spec.mass_kg), across = plane(spec.drag_axes().y / spec.mass_kg);
   const Complex root = std::sqrt(Complex(0.25 * gain * gain - gain * spec.altitude_gain_1_s, 0.0));
-  return {plane[0], plane[1], plane[2], -0.5 * gain + root, -0.5 * gain - root, Complex(-spec.yaw_rate_gain_1_s, 0.0)};
+  return {along[0], along[1], along[2], across[0], across[1], across[2], -0.5 * gain + root, -0.5 * gain - root, Complex(-spec.yaw_rate_gain_1_s, 0.0)};
 }
 
-bool decays(const std::array<Complex, 6>& values, double step) {
+bool decays(const std::array<Complex, 9>& values, double step) {
   return std::all_of(values.begin(), values.end(), [step](const Complex& value) {
     const Complex z = value * step;
     return std::abs(1.0 + z * (1.0 + z * (0.5 + z * (1.0 / 6.0 + z / 24.0)))) <= 1.0;

@@ -303,7 +303,7 @@ TEST_CASE("the quadrotor's shipped missions end as they say") {
     CAPTURE(simulation.verdict()->reason);
     CHECK(verdict(simulation) == expected);
     CHECK(simulation.totals().least_clearance > 0.1);
-    MESSAGE(name << ": " << simulation.time() << " s, least clearance " << simulation.totals().least_clearance << " m: " << simulation.verdict()->reason);
+    MESSAGE(std::string(name) << ": " << simulation.time() << " s, least clearance " << simulation.totals().least_clearance << " m: " << simulation.verdict()->reason);
     const bool bug = std::string(name) == "quadrotor/bug2" || std::string(name) == "quadrotor/closed_here";
     CHECK((simulation.verdict()->reason.find("at this altitude (z = 1.00 m)") != std::string::npos) == bug);
     if (simulation.mission().planner.land) CHECK(simulation.vehicle().on_floor);
@@ -348,7 +348,7 @@ TEST_CASE("one flight with steps of 1 to 50 ms ends at the same place") {
     }
     double apart = 0.0;
     for (const glm::dvec3& end : ends) apart = std::max(apart, glm::distance(end, ends.front()));
-    MESSAGE(model << ": at most " << apart << " m apart");
+    MESSAGE(std::string(model) << ": at most " << apart << " m apart");
     CHECK(apart < 1e-3);
   }
 }
