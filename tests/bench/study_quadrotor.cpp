@@ -117,6 +117,8 @@ void hover() {
       std::vector<Override> changes = air.changes;
       changes.push_back({"vehicle.model", model, "study"});
       changes.push_back({"map.enabled", "false", "study"});
+      changes.push_back({"sensor.azimuth_rays", "4", "study"});
+      changes.push_back({"sensor.elevation_rays", "4", "study"});
       const Flown run = flown("quadrotor/hover", changes);
       fmt::print("| {} | {} | {:.4f} m | {:.2f}° |\n", model, air.words, run.drift, degrees(run.tilt));
     }
@@ -127,7 +129,7 @@ void steps() {
   for (const char* model : {"kinematic", "rigid_body"}) {
     glm::dvec3 first{0.0};
     for (const char* step : {"0.001", "0.002", "0.005", "0.01", "0.02", "0.05"}) {
-      const Flown run = flown("quadrotor/waypoints", {{"vehicle.model", model, "study"}, {"map.enabled", "false", "study"}, {"step_s", step, "study"}});
+      const Flown run = flown("quadrotor/waypoints", {{"vehicle.model", model, "study"}, {"map.enabled", "false", "study"}, {"step_s", step, "study"}, {"sensor.azimuth_rays", "4", "study"}, {"sensor.elevation_rays", "4", "study"}});
       if (step == std::string("0.001")) first = run.end;
       fmt::print("| {} | {} s | ({:.3f}, {:.3f}, {:.3f}) | {:.4f} m |\n", model, step, run.end.x, run.end.y, run.end.z, glm::distance(run.end, first));
     }

@@ -186,7 +186,7 @@ TEST_CASE("a step that is too long for the attitude controller is an error that 
     return glm::length(state.velocity) + glm::length(state.rates);
   };
   CHECK(worst(0.97 * longest) < 1e-5);
-  CHECK(worst(1.1 * longest) > 1e-3);
+  CHECK_FALSE(worst(1.1 * longest) < 1e-3);  // (not a number, once it has run away)
 }
 
 TEST_CASE("auto chooses the rigid body for wind and for fast flight, and says why") {
@@ -349,16 +349,16 @@ TEST_CASE("one flight with steps of 1 to 50 ms ends at the same place") {
     double apart = 0.0;
     for (const glm::dvec3& end : ends) apart = std::max(apart, glm::distance(end, ends.front()));
     MESSAGE(std::string(model) << ": at most " << apart << " m apart");
-    CHECK(apart < 1e-3);
+    CHECK(apart < 1e-8);
   }
 }
 
 TEST_CASE("flights in gusts are the same bits again, and a copy in mid-air goes on the same way") {
-  Mission mission = shipped("quadrotor/waypoints", {{"map.enabled", "false", "test"}, {"vehicle.gust_m_s", "0.3", "test"}, {"vehicle.jitter_m_s", "0.05", "test"}, {"limits.time_s", "12.0", "test"}});
+  Mission mission = shipped("quadrotor/waypoints", {{"map.enabled", "false", "test"}, {"vehicle.gust_m_s", "0.3", "test"}, {"vehicle.jitter_m_s", "0.05", "test"}, {"limits.time_s", "8.0", "test"}, {"sensor.azimuth_rays", "4", "test"}, {"sensor.elevation_rays", "4", "test"}});
   auto first = Simulation::create(mission), second = Simulation::create(mission);
   REQUIRE(first);
   REQUIRE(second);
-  for (int i = 0; i < 600; ++i) first->step();
+  for (int i = 0; i < 400; ++i) first->step();
   Simulation copy = *first;
   while (first->step()) {
   }
