@@ -63,6 +63,7 @@ Flown flown(const std::string& name, const std::vector<Override>& changes) {
   run.path = simulation.totals().path_length;
   run.end = {simulation.vehicle().pose.position, simulation.vehicle().z};
   run.verdict = to_string(simulation.verdict()->kind);
+  if (simulation.verdict()->kind == Verdict::Kind::stopped) run.verdict += ": " + simulation.verdict()->reason;
   return run;
 }
 
@@ -125,13 +126,13 @@ void hover() {
 }
 
 void steps() {
-  fmt::print("\n## One flight (way-points) with different steps\n\n| model | step | ends at | from the end at 1 ms |\n|---|---|---|---|\n");
+  fmt::print("\n## One flight (way-points) with different steps\n\n| model | step | verdict | ends at | from the end at 1 ms |\n|---|---|---|---|---|\n");
   for (const char* model : {"kinematic", "rigid_body"}) {
     glm::dvec3 first{0.0};
     for (const char* step : {"0.001", "0.002", "0.005", "0.01", "0.02", "0.05"}) {
-      const Flown run = flown("quadrotor/waypoints", {{"vehicle.model", model, "study"}, {"map.enabled", "false", "study"}, {"step_s", step, "study"}, {"sensor.azimuth_rays", "4", "study"}, {"sensor.elevation_rays", "4", "study"}});
+      const Flown run = flown("quadrotor/waypoints", {{"vehicle.model", model, "study"}, {"map.enabled", "false", "study"}, {"step_s", step, "study"}});
       if (step == std::string("0.001")) first = run.end;
-      fmt::print("| {} | {} s | ({:.3f}, {:.3f}, {:.3f}) | {:.4f} m |\n", model, step, run.end.x, run.end.y, run.end.z, glm::distance(run.end, first));
+      fmt::print("| {} | {} s | {} | ({:.3f}, {:.3f}, {:.3f}) | {:.4f} m |\n", model, step, run.verdict, run.end.x, run.end.y, run.end.z, glm::distance(run.end, first));
     }
   }
 }
@@ -144,6 +145,6 @@ int main() {
   fmt::print("The longest stable step of the rigid body: {:.4f} s\n", longest_stable_step(quadrotor()));
   step_response();
   hover();
-  steps();
   models();
+  steps();
 }
