@@ -58,7 +58,21 @@ Result<Simulation> Simulation::changed(const Mission& mission, Scene scene, cons
   next.steps_ = is.step_s == was.step_s ? steps_ : static_cast<std::uint64_t>(std::llround(time() / is.step_s));
   next.scene_.set_time(next.time());
   next.vehicle_ = vehicle_;
-  if (pose) next.vehicle_ = {*pose, 0.0, 0.0};
+  if (!is.vehicle.flies() || !was.vehicle.flies()) {
+    // Another kind of vehicle begins as that kind does, where this one is.
+    next.vehicle_ = {};
+    static_cast<DifferentialDrive&>(next.vehicle_) = vehicle_;
+    next.vehicle_.z = is.start.z_m;
+    next.vehicle_.on_floor = is.vehicle.flies() && is.start.z_m <= 0.0;
+  }
+  if (pose) {
+    const double z = next.vehicle_.z;
+    next.vehicle_ = {};
+    next.vehicle_.pose = *pose;
+    next.vehicle_.z = z;
+    next.vehicle_.on_floor = is.vehicle.flies() && z <= 0.0;
+  }
+  if (pose || !is.vehicle.flies() || !was.vehicle.flies()) next.vehicle_.attitude = Pose::planar(0.0, 0.0, 0.0, next.vehicle_.pose.yaw).orientation;
   const bool odometry_stays = same(odometry_section(), was.odometry, is.odometry) && was.seed == is.seed;
   if (odometry_stays && !pose) next.odometry_ = odometry_;
   else next.odometry_ = Odometry(is.odometry, pose ? *pose : estimate(), static_cast<std::uint64_t>(is.seed));
@@ -89,6 +103,7 @@ Result<Simulation> Simulation::changed(const Mission& mission, Scene scene, cons
   next.totals_ = totals_;
   next.times_ = times_;
   next.stuck_pose_ = next.vehicle_.pose;
+  next.stuck_z_ = next.vehicle_.z;
   next.place_ = next.vehicle_.pose.position;
   next.stuck_step_ = next.place_step_ = next.steps_;
   next.verdict_.reset();
@@ -105,6 +120,12 @@ std::uint64_t state_hash(const Simulation& simulation) {
   hash.pose(simulation.vehicle().pose);
   hash.pose(simulation.estimate());
   for (const double x : {simulation.vehicle().speed, simulation.vehicle().turn_rate, simulation.decision().command.speed, simulation.decision().command.turn_rate}) hash.number(x);
+  if (simulation.mission().vehicle.flies()) {
+    const Vehicle& v = simulation.vehicle();
+    for (const glm::dvec3& x : {v.velocity, v.rates, v.unrest.gust, v.unrest.jitter}) hash.bytes(&x, sizeof x);
+    for (const double x : {v.z, v.attitude.w, v.attitude.x, v.attitude.y, v.attitude.z, simulation.decision().command.lateral, simulation.decision().command.climb, simulation.decision().command.altitude.value_or(-1.0)}) hash.number(x);
+    hash.number(v.on_floor);
+  }
   hash.text(simulation.decision().state);
   hash.number(simulation.driven_by_hand());
   for (const Scan& scan : simulation.scans()) {

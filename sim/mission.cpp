@@ -34,7 +34,7 @@ const Section& start_section() {
   static const Section section = SectionOf<S>("[start]", "where the vehicle starts")
                                      .key("x_m", &S::x_m, "m", between(-1e9, 1e9), "east")
                                      .key("y_m", &S::y_m, "m", between(-1e9, 1e9), "north")
-                                     .key("z_m", &S::z_m, "m", between(-1e9, 1e9), "height of the ground under it")
+                                     .key("z_m", &S::z_m, "m", between(-1e9, 1e9), "height of the ground under it; of a quadrotor its own altitude, 0: it stands on the floor")
                                      .key("yaw_deg", &S::yaw_deg, "deg", between(-36000.0, 36000.0), "heading, counter-clockwise from east");
   return section;
 }
@@ -199,6 +199,10 @@ void check_together(const Node& root, const Mission& mission, Faults& faults) {
     const char* lack = needs == PlannerNeeds::waypoints ? "way-points: give planner.waypoints_m" : "a goal: give planner.goal_m, or --goal X,Y";
     faults.add(place("planner"), fmt::format("the planner '{}' lacks {}", mission.planner.name, lack));
   }
+  if (const std::string fault = flight_fault(mission.planner, mission.vehicle.flies(), mission.start.z_m); !fault.empty()) faults.add(place("planner"), fault);
+  if (mission.vehicle.drag.size() != 1 && mission.vehicle.drag.size() != 3)
+    faults.add(place("vehicle"), fmt::format("'drag' has {} numbers, expected one, or three along the body axes", mission.vehicle.drag.size()));
+  if (mission.vehicle.flies() && mission.start.z_m < 0.0) faults.add(place("start"), fmt::format("'z_m' is {}, expected at least 0: a quadrotor flies above the floor at z = 0", mission.start.z_m));
   for (const SensorSpec& sensor : mission.sensors) {
     const double cells = 2.0 * mounted(sensor).range_max_m / mission.map.resolution_m;
     if (mission.map.enabled && cells * cells > 0x1p28)

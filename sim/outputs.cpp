@@ -123,6 +123,11 @@ std::string result_json(const Simulation& simulation, const std::optional<RunSco
   if (mission.planner.clearance_privileged) json["clearance"] = {{"m", mission.planner.clearance_m}, {"auto", true}, {"privileged", true}};
   json["minimum_clearance_m"] = number(totals.least_clearance);
   json["final_pose"] = {{"x_m", pose.position.x}, {"y_m", pose.position.y}, {"yaw_deg", degrees(pose.yaw)}};
+  if (mission.vehicle.flies()) {
+    json["final_pose"]["z_m"] = simulation.vehicle().z;
+    const FlightModel& model = simulation.stage().flight;
+    json["flight"] = {{"model", model.rigid_body ? "rigid_body" : "kinematic"}, {"because", model.reason}, {"on_floor", simulation.vehicle().on_floor}};
+  }
   json["steps"] = simulation.steps();
   json["scans"] = totals.scans;
   json["rays"] = totals.rays;
