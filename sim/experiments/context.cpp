@@ -107,6 +107,14 @@ Scene ExperimentContext::scene(const std::string& world) const {
   return or_fail(Scene::build(or_fail(read_world(file))));
 }
 
+std::vector<Scan> ExperimentContext::look(const Scene& scene, const SensorSpec& spec, const ScanPose& pose, int count) const {
+  ScanReport report;
+  report.poses.assign(static_cast<std::size_t>(count), pose);
+  report.sensors.push_back({"", spec, {}});
+  measure(scene, report);
+  return std::move(report.sensors[0].scans);
+}
+
 std::filesystem::path ExperimentContext::file(const std::string& name) const {
   std::error_code fault;
   std::filesystem::create_directories(options_.pictures, fault);
@@ -126,6 +134,11 @@ std::string ExperimentContext::map_picture(const std::string& name, const Finish
 std::string ExperimentContext::path_picture(const std::string& name, const FinishedRun& run, const std::string& caption) const {
   or_fail(write_path_picture(file(name), run.simulation, run.trajectory));
   return picture(name, caption);
+}
+
+std::string ExperimentContext::ray_picture(const std::string& name, const RayPicture& picture, const std::string& caption) const {
+  or_fail(write_ray_picture(file(name), picture));
+  return this->picture(name, caption);
 }
 
 std::string ExperimentContext::scan_picture(const std::string& name, const ScanReport& report, const std::string& caption) const {
