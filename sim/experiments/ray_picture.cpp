@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "../canvas.hpp"
 #include "../picture_view.hpp"
@@ -55,14 +57,14 @@ Result<Done> draw_media(Canvas& canvas, const Area& area, const RayPanel& panel)
   return Done{};
 }
 
-/// The area that a scan sensed, a wedge for each beam.
+/// The area that a scan sensed: each beam is as wide as the step between two.
 void draw_sensed(Canvas& canvas, const Area& area, const RayPanel& panel, const Scan& scan) {
-  double step = 0.0;
-  if (scan.beams.size() > 1) step = scan.beams[1].azimuth - scan.beams[0].azimuth;
-  for (const Beam& beam : scan.beams) {
-    const double angle = panel.yaw + beam.azimuth;
-    canvas.polygon({area.at(panel.position), area.at(panel.position + beam.sensed_range * toward(angle - 0.5 * step)), area.at(panel.position + beam.sensed_range * toward(angle + 0.5 * step))}, {0.45, 0.65, 0.88, 0.28});
-  }
+  if (scan.beams.size() < 2) return;
+  const double half = 0.5 * (scan.beams[1].azimuth - scan.beams[0].azimuth);
+  std::vector<glm::dvec2> outline = {area.at(panel.position)};
+  for (const Beam& beam : scan.beams)
+    for (const double side : {-half, half}) outline.push_back(area.at(panel.position + beam.sensed_range * toward(panel.yaw + beam.azimuth + side)));
+  canvas.polygon(outline, {0.45, 0.65, 0.88, 0.28});
 }
 
 /// Where a beam begins, and its direction.
@@ -73,10 +75,12 @@ std::pair<glm::dvec2, glm::dvec2> ray_of(const RayPanel& panel, const Beam& beam
 }
 
 void draw_rays(Canvas& canvas, const Area& area, const RayPanel& panel) {
+  // Scans that took the same side of a beam drew the same line.
+  std::set<std::pair<int, double>> drawn;
   for (const int side : {0, -1, 1})
     for (const Scan& scan : panel.scans)
       for (const Beam& beam : scan.beams) {
-        if (beam.side != side) continue;
+        if (beam.side != side || !drawn.insert({side, beam.azimuth}).second) continue;
         const auto [from, ahead] = ray_of(panel, beam);
         canvas.polyline({area.at(from), area.at(from + beam.sensed_range * ahead)}, side == 0 ? middle_ink : side > 0 ? left_ink : right_ink, side == 0 ? 0.7 : 1.0);
       }

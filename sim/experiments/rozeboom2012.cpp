@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
+#include <optional>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -62,7 +61,7 @@ std::string clearing(ExperimentContext& context) {
   const ScanPose pose{{-10.0, 0.0, 0.4}, 0.0, 0.0, {}};
   const Scene clear = context.scene("clearing/clearing"), dust = context.scene("clearing/clearing_in_dust"), rain = context.scene("clearing/clearing_in_rain");
   const SensorSpec radar = context.sensor("", "usarsim2012").spec, laser = equal_laser();
-  std::string text = "Four bushes of leaves, four steel poles and four boxes in a fenced clearing of 32 × 28 m (`worlds/data/clearing/`, all of it ours). Dust is a cloud 14 m wide before the robot, in which a person sees 8 m far; heavy rain is "
+  std::string text = "Four bushes of leaves, four steel poles and four boxes in a fenced clearing of 32 × 28 m (`worlds/data/clearing/`; which, where and how large is ours). Dust is a cloud 14 m wide before the robot, in which a person sees 8 m far; heavy rain is "
                      "50 mm/h everywhere. The laser has the range and the beams of the radar: 360 of them, 30 m.\n\n";
   const PictureView view{glm::dvec3(-15.0, -9.0, 6.0), glm::dvec3(1.0, 0.0, 0.2), 50.0, 480, 270, {}};
   text += context.world_picture("scene", clear, view, "The scene (its figure 1).");
@@ -98,8 +97,8 @@ std::string clearing(ExperimentContext& context) {
 std::string foliage_room(ExperimentContext& context) {
   std::string text = "`worlds/data/foliage_wall/`: a room of 24 × 16 m, spheres of radius 1.5 m every 2.95 m across it, foliage of 8 dB/m and a budget of 10 dB, so that a ray passes 1.25 m of it. All of that is ours; the text prints no sizes.\n\n";
   const Scene scene = context.scene("foliage_wall/divided_room");
-  text += context.world_picture("room", scene, {glm::dvec3(-13.0, -15.0, 13.0), glm::dvec3(-0.5, -0.8, 0.0), 60.0, 480, 300, {}}, "The room (its figure 6).");
-  const ScanPose pose{{-5.0, 0.4, 0.4}, 0.0, 0.0, {}};
+  text += context.world_picture("room", scene, {{}, {}, 50.0, 480, 300, {}}, "The room (its figure 6).");
+  const ScanPose pose{{-4.0, 1.475, 0.4}, 0.0, 0.0, {}};
   const SensorSpec radar = context.sensor("", "usarsim2012").spec, hokuyo = context.sensor("", "urg04lx").spec, laser = equal_laser();
   RayPicture readings;
   readings.low = {-12.3, -8.3};
@@ -157,7 +156,7 @@ Smear smear_of(const std::vector<Scan>& scans, const Scan& plain) {
 std::string side_beams(ExperimentContext& context) {
   const Scene scene = context.scene("foliage_wall/divided_room");
   const auto radar = std::get<ScanningRadarSpec>(context.sensor("", "usarsim2012").spec);
-  const ScanPose pose{{-5.0, 0.4, 0.4}, 0.0, 0.0, {}};
+  const ScanPose pose{{-4.0, 1.475, 0.4}, 0.0, 0.0, {}};
   const int scans = context.unless_brief(100, 10);
   std::string text = "`divergence = \"side_rays\"`: a beam is its middle, left or right ray, one of three by equal chance. 250 UDK units are a metre, so N = 50 is 0.2 m and N = 100 is 0.4 m. The text does not say where N is measured: it may be "
                      "the offset at the end of the range (`side_geometry = \"diverging\"`, ours where nothing else is said) or at the sensor (`\"parallel\"`). Both are here.\n\n";
@@ -175,26 +174,27 @@ std::string side_beams(ExperimentContext& context) {
       rows.push_back({name, geometry, fixed(smear.mean, 3), fixed(smear.p95), percent(smear.far)});
       if (geometry == std::string("parallel")) readings.panels.push_back({fmt::format("{} (figure {})", name, offset < 0.3 ? 9 : 10), &scene, glm::dvec2(pose.position), 0.0, {many[0]}, false, 0.0, 0.0});
     }
-  text += context.ray_picture("readings", readings, "Readings in the room (its figures 9 and 10), with N at the sensor.");
+  readings.panels.push_back({"N = 100, diverging to the range of 30 m", &scene, glm::dvec2(pose.position), 0.0, context.look(scene, with_sides(radar, 0.4, "diverging"), pose), false, 0.0, 0.0});
+  text += context.ray_picture("readings", readings, "Readings in the room (its figures 9 and 10); parallel side rays but in the last picture.");
   text += fmt::format("First echoes of {} scans from there, against those without side rays:\n\n", scans);
   text += table({"N", "side rays are", "mean difference, m", "95 % within, m", "more than 0.5 m off"}, rows, 2);
 
   // Its figures 11 and 12: all three rays of each beam. Which of them a scan takes is chance: those of enough scans.
   RayPicture fan;
-  fan.low = {-5.8, -2.2};
-  fan.high = {-0.2, 3.0};
-  fan.scale = 78.0;
+  fan.low = {-5.0, -1.2};
+  fan.high = {0.8, 4.2};
+  fan.scale = 48.0;
   fan.hull_radius = 0.356;
   for (const char* geometry : {"parallel", "diverging"})
     for (const auto& [name, offset] : {std::pair{"N = 50 (figure 11)", 0.2}, {"N = 100 (figure 12)", 0.4}}) {
       ScanningRadarSpec spec = with_sides(radar, offset, geometry);
       spec.fov_deg = 60.0;
-      spec.step_deg = 3.0;
-      spec.range_max_m = 5.0;
+      spec.step_deg = 4.0;
+      spec.range_max_m = 8.0;
       const bool parallel = geometry == std::string("parallel");
       fan.panels.push_back({fmt::format("{}, {}", name, geometry), &scene, glm::dvec2(pose.position), 0.0, context.look(scene, spec, pose, 30), true, parallel ? 0.0 : std::atan(offset / spec.range_max_m), parallel ? offset : 0.0});
     }
-  text += context.ray_picture("fans", fan, "The side rays of a P3-AT's radar before two bushes (its figures 11 and 12), here every 3° over 60° and to 5 m so that single ones can be told apart. A ray ends where its budget is used up.");
+  text += context.ray_picture("fans", fan, "The side rays of a P3-AT's radar before the bushes (its figures 11 and 12), here every 4° over 60° and to 8 m so that single ones can be told apart. A ray ends where its budget is used up.");
   text += "**What differs.** As in the source, walls become ragged and the gaps between bushes narrower, more so for N = 100, and on the left and the right the fans of the two sides stand out beyond each other. With N at the end of a range of 30 m the "
           "side rays turn by 0.4° and 0.8°, less than the step of 1°, and the noise is small; with N at the sensor it is that of the figures. Its future work is here too: chances by the angle of the surface "
           "(`side_choice = \"incidence\"`), the strongest or the sum of all three, and beams that widen in all directions (`divergence = \"cone\"`).\n";
@@ -273,7 +273,7 @@ std::string leaves(ExperimentContext& context) {
   while (boxes.step()) {
   }
   std::string text = "`worlds/data/thicket/`: a garden with brush and young trees from wall to wall, of leaves and twigs of two triangles each, about 8 m² of leaf in a cubic metre. A small robot drives along it.\n\n";
-  text += context.world_picture("thicket", context.scene("thicket/closed_thicket"), {glm::dvec3(-10.5, -11.5, 5.2), glm::dvec3(0.4, 0.0, 1.4), 50.0, 480, 280, {}}, "The thicket.");
+  text += context.world_picture("thicket", context.scene("thicket/closed_thicket"), {glm::dvec3(-10.5, -11.5, 5.2), glm::dvec3(0.4, 0.0, 1.4), 50.0, 400, 230, {}}, "The thicket.");
   text += context.map_picture("radar", radar, "The map by radar.");
   text += table({"plants are", "sensor", "of the free area behind them, mapped"},
                 {{"leaves", "radar", percent(observed(radar))}, {"leaves", "laser of the same range", percent(observed(laser))}, {"the boxes around them, as in USARSim", "radar", percent(observed_share(boxes, *prepared.mission().output.observed_region_m).value_or(NAN))}}, 2);
