@@ -131,7 +131,7 @@ void draw_legend(Canvas& canvas, const RayPicture& p, double top) {
   };
   area({0.60, 0.62, 0.65}, "matter");
   const auto in_medium = [](const RayPanel& panel) { return std::any_of(panel.scene->world().solids.begin(), panel.scene->world().solids.end(), [&](const Solid& s) { return !panel.scene->world().materials[s.material].stops_motion; }); };
-  if (std::any_of(p.panels.begin(), p.panels.end(), in_medium)) area({0.914, 0.863, 0.753}, "dust");
+  if (std::any_of(p.panels.begin(), p.panels.end(), in_medium)) area({0.914, 0.863, 0.753}, "dust, smoke");
   if (rays) {
     for (const auto& [colour, text] : {std::pair{left_ink, "left side rays"}, {right_ink, "right side rays"}, {middle_ink, "middle rays"}}) {
       canvas.polyline({{x, top + 8.0}, {x + 20.0, top + 8.0}}, colour, 2.0);

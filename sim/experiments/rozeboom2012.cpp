@@ -61,8 +61,8 @@ std::string clearing(ExperimentContext& context) {
   const ScanPose pose{{-10.0, 0.0, 0.4}, 0.0, 0.0, {}};
   const Scene clear = context.scene("clearing/clearing"), dust = context.scene("clearing/clearing_in_dust"), rain = context.scene("clearing/clearing_in_rain");
   const SensorSpec radar = context.sensor("", "usarsim2012").spec, laser = equal_laser();
-  std::string text = "Four bushes of leaves, four steel poles and four boxes in a fenced clearing of 32 × 28 m (`worlds/data/clearing/`; which, where and how large is ours). Dust is a cloud 14 m wide before the robot, in which a person sees 8 m far; heavy rain is "
-                     "50 mm/h everywhere. The laser has the range and the beams of the radar: 360 of them, 30 m.\n\n";
+  std::string text = "Four bushes of leaves, four steel poles and four boxes in a fenced clearing of 32 × 28 m (`worlds/data/clearing/`; which, where and how large is ours). Dust is a cloud 14 m wide before the robot, in which a person sees 8 m far: it takes 0.5 of light per metre (Koschmieder 1924) and at most 0.001 dB/m of radar (ours). Heavy rain is "
+                     "50 mm/h everywhere: 0.0034 of light per metre (ITU-R P.1814) and 0.007 dB/m of radar at 24 GHz (ITU-R P.838-3). Two of the things stand behind others. The laser has the range and the beams of the radar: 360 of them, 30 m.\n\n";
   const PictureView view{glm::dvec3(-15.0, -9.0, 6.0), glm::dvec3(1.0, 0.0, 0.2), 50.0, 480, 270, {}};
   text += context.world_picture("scene", clear, view, "The scene (its figure 1).");
   text += context.world_picture("dust", dust, view, "The same with the cloud of dust. The camera sees as light does.");
@@ -85,10 +85,10 @@ std::string clearing(ExperimentContext& context) {
   }
   text += context.ray_picture("readings", readings, "Readings of one place: the radar in clear air and dust (its figures 2 and 3), and the laser (4 and 5).");
   text += table({"sensor", "air", "things seen from one place", "beams whose first echo is that of clear air, within 0.1 m", "area mapped in a drive of 6 m, m²"}, rows, 2);
-  text += "**What differs.** The radar has the same echoes in dust as in clear air, as the source says. The laser sees the front of the cloud as a wall, 2 m deep in it (where the optical depth is 1), and nothing in or behind it. In "
-          "the source's figure 5 the dust is ragged, for real dust is; ours is even. *Heavy rain*: the source says that it shows similar results. Ours does not: by ITU-R P.1814 rain of 50 mm/h takes 0.0034 of light per metre, so that even the "
-          "laser loses nearly nothing over 30 m. What disturbs a real laser in rain, echoes of single drops near it and water on its window, is not modelled. Ours tells also what the laser of the source had not: all echoes "
-          "of a beam, so that the radar sees the fence behind leaves.\n";
+  text += "**What differs.** The radar has the same echoes in dust as in clear air, as the source says. The laser sees the front of the cloud as a wall, 2 m deep in it (where the optical depth is 1), and nothing in or behind it. Real "
+          "dust is ragged; ours is even. *Heavy rain*: the source says that it shows similar results. Ours does not: by ITU-R P.1814 rain of 50 mm/h takes 0.0034 of light per metre, so that even the "
+          "laser loses nearly nothing over 30 m. What disturbs a real laser in rain, echoes of single drops near it and water on its window, is not modelled. Our radar gives all echoes of a beam, so that it "
+          "also sees the fence behind leaves.\n";
   return text;
 }
 
@@ -195,8 +195,8 @@ std::string side_beams(ExperimentContext& context) {
       fan.panels.push_back({fmt::format("{}, {}", name, geometry), &scene, glm::dvec2(pose.position), 0.0, context.look(scene, spec, pose, 30), true, parallel ? 0.0 : std::atan(offset / spec.range_max_m), parallel ? offset : 0.0});
     }
   text += context.ray_picture("fans", fan, "The side rays of a P3-AT's radar before the bushes (its figures 11 and 12), here every 4° over 60° and to 8 m so that single ones can be told apart. A ray ends where its budget is used up.");
-  text += "**What differs.** As in the source, walls become ragged and the gaps between bushes narrower, more so for N = 100, and on the left and the right the fans of the two sides stand out beyond each other. With N at the end of a range of 30 m the "
-          "side rays turn by 0.4° and 0.8°, less than the step of 1°, and the noise is small; with N at the sensor it is that of the figures. Its future work is here too: chances by the angle of the surface "
+  text += "**What differs.** As the text says, the noise becomes visible: walls become ragged, more so for N = 100, and at both ends the fans of the two sides stand out beyond each other. With N at the end of a range of 30 m the "
+          "side rays turn by 0.4° and 0.8°, less than the step of 1°, and the noise is small; with N at the sensor walls are ragged by as much as N. Its future work is here too: chances by the angle of the surface "
           "(`side_choice = \"incidence\"`), the strongest or the sum of all three, and beams that widen in all directions (`divergence = \"cone\"`).\n";
   return text;
 }
@@ -221,9 +221,9 @@ std::string bugs(ExperimentContext& context) {
 std::string explored(ExperimentContext& context) {
   const std::vector<std::string> sets = context.brief() ? std::vector<std::string>{"planner.explore_m=40"} : std::vector<std::string>{};
   const FinishedRun by_radar = context.run("foliage_wall/explored", sets);
-  std::vector<std::string> laser_sets = sets;
-  for (const char* set : {"sensor.first_echo_only=true"}) laser_sets.emplace_back(set);
-  const FinishedRun first = context.run("foliage_wall/explored", laser_sets);
+  std::vector<std::string> first_sets = sets;
+  first_sets.emplace_back("sensor.first_echo_only=true");
+  const FinishedRun first = context.run("foliage_wall/explored", first_sets);
   std::string text = "`foliage_wall/explored`: a P3-AT explores its side of the room by itself, once along the wall and then in lanes, as section 5 of the text sketches it. The pose is the true one, for there is no SLAM yet.\n\n";
   text += context.map_picture("map", by_radar, "The map in the colours of its figure 15.");
   // A core of a bush: within 0.3 m of its middle.
@@ -242,7 +242,7 @@ std::string explored(ExperimentContext& context) {
                  {"cells in the cores of bushes known, of " + std::to_string(core), std::to_string(core_known), "-"}});
   text += cost_table({"run"}, {{{"radar"}, &by_radar}});
   text += "**What differs.** As in the source: behind the foliage the map is mostly white or grey, small cores of blue stay in the bushes where no ray gets through, the bushes' insides are clear to the sensor and not to the robot (here green, the "
-          "source has its grey), and black dots stand around them. Blue wedges behind the cores are their shadows; the source's robot was driven by hand on a way that is not told, and its map has fewer of them. With first echoes only all of the right side "
+          "source has its grey), and black dots stand around them. Blue wedges behind the cores are their shadows; the text tells of none; its robot was driven by hand on a way that it does not tell. With first echoes only all of the right side "
           "stays blue. The source's poses came from SLAM; ours are true.\n";
   return text;
 }
@@ -267,8 +267,9 @@ World as_boxes(World world) {
 }
 
 std::string leaves(ExperimentContext& context) {
-  const FinishedRun radar = context.run("thicket/look_through"), laser = context.run("thicket/look_through_lidar");
-  const Simulation prepared = context.prepare("thicket/look_through");
+  const std::vector<std::string> sets = context.brief() ? std::vector<std::string>{"planner.waypoints_m=[[-2.2,-4.8],[-2.2,4.8]]", "sensor.rate_hz=5"} : std::vector<std::string>{};
+  const FinishedRun radar = context.run("thicket/look_through", sets), laser = context.run("thicket/look_through_lidar", sets);
+  const Simulation prepared = context.prepare("thicket/look_through", sets);
   Simulation boxes = or_fail(Simulation::create(prepared.mission(), as_boxes(prepared.scene().world())));
   while (boxes.step()) {
   }
@@ -289,12 +290,12 @@ std::vector<Experiment> rozeboom2012_experiments() {
   const std::string text = "Rozeboom 2012, ";
   return {
       {"rozeboom2012/clearing", "Plants, poles and boxes in clear air, dust and rain", text + "figures 1 to 5 (after Peynot, Scheding & Terho 2010)",
-       "Figure 1 is a photograph of a scene with plants, poles and boxes. Figures 2 and 3 are a radar's readings of it in clear air and in heavy dust: hardly a difference. Figures 4 and 5 are a laser's: in dust it is disturbed much.", clearing},
+       "Figure 1 is a scene with plants, poles and boxes. Figures 2 and 3 are a radar's readings of it in clear air and in heavy dust: little to no interference. Figures 4 and 5 are a laser's, which dust influences much. Heavy rain, it says, shows similar results.", clearing},
       {"rozeboom2012/foliage_room", "A room divided by foliage", text + "figures 6 to 8",
        "Figure 6 is the test room in UDK: a wall of foliage spheres divides it. Figure 7 is what a Hokuyo laser reads: a closed wall. Figure 8 is the ground truth of the radar: through the thin edges of the spheres it sees holes and part of the room behind; "
        "through their middles it does not.", foliage_room},
       {"rozeboom2012/side_beams", "Side beams, N = 50 and N = 100", text + "figures 9 to 12",
-       "Figures 9 and 10 are the radar's readings with side beams of N = 50 and 100 units: the more, the more ragged. Figures 11 and 12 show the beams on the P3-AT, red to the left and blue to the right of the original ones: in the middle they "
+       "Figures 9 and 10 are the radar's readings with side beams of N = 50 and N = 100 units: the noise becomes visible. Figures 11 and 12 show the beams on the P3-AT, red to the left and blue to the right of the original ones: in the middle they "
        "overlap, at both ends they exceed each other. N = 100 is for show; 50 and less is recommended.", side_beams},
       {"rozeboom2012/bugs", "Bug1 and Bug2", text + "figures 13 and 14", "Drawings of Bug1 (figure 13) and Bug2 (figure 14): above, each finds a way to the goal; below, it reports that there is none.", bugs},
       {"rozeboom2012/explored", "The explored map", text + "figure 15",
