@@ -147,7 +147,9 @@ std::string ExperimentContext::scan_picture(const std::string& name, const ScanR
 }
 
 std::string ExperimentContext::world_picture(const std::string& name, const Scene& scene, const PictureView& view, const std::string& caption) const {
-  or_fail(draw_world(scene, view, file(name)));
+  PictureView drawn = view;
+  if (options_.brief) drawn.width = std::max(1, view.width / 4), drawn.height = std::max(1, view.height / 4);
+  or_fail(draw_world(scene, drawn, file(name)));
   return picture(name, caption);
 }
 
