@@ -61,8 +61,8 @@ std::string clearing(ExperimentContext& context) {
   const ScanPose pose{{-10.0, 0.0, 0.4}, 0.0, 0.0, {}};
   const Scene clear = context.scene("clearing/clearing"), dust = context.scene("clearing/clearing_in_dust"), rain = context.scene("clearing/clearing_in_rain");
   const SensorSpec radar = context.sensor("", "usarsim2012").spec, laser = equal_laser();
-  std::string text = "Four bushes of leaves, four steel poles and four boxes in a fenced clearing of 32 × 28 m (`worlds/data/clearing/`; which, where and how large is ours). Dust is a cloud 14 m wide before the robot, in which a person sees 8 m far: it takes 0.5 of light per metre (Koschmieder 1924) and at most 0.001 dB/m of radar (ours). Heavy rain is "
-                     "50 mm/h everywhere: 0.0034 of light per metre (ITU-R P.1814) and 0.007 dB/m of radar at 24 GHz (ITU-R P.838-3). Two of the things stand behind others. The laser has the range and the beams of the radar: 360 of them, 30 m.\n\n";
+  std::string text = "Four bushes of leaves, four steel poles and four boxes in a fenced clearing of 32 × 28 m (`worlds/data/clearing/`; which, where and how large is ours). Dust is a cloud 14 m wide before the robot, in which a person sees 8 m far: an extinction of light of 0.5 per metre (Koschmieder 1924), and at most 0.001 dB/m for radar (ours). Heavy rain is "
+                     "50 mm/h everywhere: 0.0034 per metre (ITU-R P.1814), and 0.007 dB/m for radar at 24 GHz (ITU-R P.838-3). Two of the things stand behind others. The laser has the range and the beams of the radar: 360 of them, 30 m.\n\n";
   const PictureView view{glm::dvec3(-15.0, -9.0, 6.0), glm::dvec3(1.0, 0.0, 0.2), 50.0, 480, 270, {}};
   text += context.world_picture("scene", clear, view, "The scene (its figure 1).");
   text += context.world_picture("dust", dust, view, "The same with the cloud of dust. The camera sees as light does.");
@@ -86,7 +86,7 @@ std::string clearing(ExperimentContext& context) {
   text += context.ray_picture("readings", readings, "Readings of one place: the radar in clear air and dust (its figures 2 and 3), and the laser (4 and 5).");
   text += table({"sensor", "air", "things seen from one place", "beams whose first echo is that of clear air, within 0.1 m", "area mapped in a drive of 6 m, m²"}, rows, 2);
   text += "**What differs.** The radar has the same echoes in dust as in clear air, as the source says. The laser sees the front of the cloud as a wall, 2 m deep in it (where the optical depth is 1), and nothing in or behind it. Real "
-          "dust is ragged; ours is even. *Heavy rain*: the source says that it shows similar results. Ours does not: by ITU-R P.1814 rain of 50 mm/h takes 0.0034 of light per metre, so that even the "
+          "dust is ragged; ours is even. *Heavy rain*: the source says that it shows similar results. Ours does not: with 0.0034 per metre even the "
           "laser loses nearly nothing over 30 m. What disturbs a real laser in rain, echoes of single drops near it and water on its window, is not modelled. Our radar gives all echoes of a beam, so that it "
           "also sees the fence behind leaves.\n";
   return text;
