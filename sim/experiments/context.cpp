@@ -107,6 +107,14 @@ Scene ExperimentContext::scene(const std::string& world) const {
   return or_fail(Scene::build(or_fail(read_world(file))));
 }
 
+std::vector<Scan> ExperimentContext::look(const Scene& scene, const SensorSpec& spec, const ScanPose& pose, int count) const {
+  ScanReport report;
+  report.poses.assign(static_cast<std::size_t>(count), pose);
+  report.sensors.push_back({"", spec, {}});
+  measure(scene, report);
+  return std::move(report.sensors[0].scans);
+}
+
 std::filesystem::path ExperimentContext::file(const std::string& name) const {
   std::error_code fault;
   std::filesystem::create_directories(options_.pictures, fault);
@@ -128,13 +136,20 @@ std::string ExperimentContext::path_picture(const std::string& name, const Finis
   return picture(name, caption);
 }
 
+std::string ExperimentContext::ray_picture(const std::string& name, const RayPicture& picture, const std::string& caption) const {
+  or_fail(write_ray_picture(file(name), picture));
+  return this->picture(name, caption);
+}
+
 std::string ExperimentContext::scan_picture(const std::string& name, const ScanReport& report, const std::string& caption) const {
   or_fail(draw_scans(report, file(name)));
   return picture(name, caption);
 }
 
 std::string ExperimentContext::world_picture(const std::string& name, const Scene& scene, const PictureView& view, const std::string& caption) const {
-  or_fail(draw_world(scene, view, file(name)));
+  PictureView drawn = view;
+  if (options_.brief) drawn.width = std::max(1, view.width / 4), drawn.height = std::max(1, view.height / 4);
+  or_fail(draw_world(scene, drawn, file(name)));
   return picture(name, caption);
 }
 

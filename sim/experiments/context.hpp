@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ray_picture.hpp"
 #include "thicket/sim/experiments.hpp"
 #include "thicket/sim/scan_report.hpp"
 #include "thicket/sim/simulation.hpp"
@@ -76,6 +77,9 @@ class ExperimentContext {
   /// A shipped world, traceable.
   Scene scene(const std::string& world) const;
 
+  /// Scans of a sensor that stands at a place (its mount left out), one after the other.
+  std::vector<Scan> look(const Scene& scene, const SensorSpec& spec, const ScanPose& pose, int count = 1) const;
+
   /// Where a picture of this experiment goes.
   std::filesystem::path file(const std::string& name) const;
   /// The Markdown that shows it.
@@ -84,6 +88,7 @@ class ExperimentContext {
   /// Pictures, as the Markdown that shows them.
   std::string map_picture(const std::string& name, const FinishedRun& run, const std::string& caption) const;
   std::string path_picture(const std::string& name, const FinishedRun& run, const std::string& caption) const;
+  std::string ray_picture(const std::string& name, const RayPicture& picture, const std::string& caption) const;
   std::string scan_picture(const std::string& name, const ScanReport& report, const std::string& caption) const;
   std::string world_picture(const std::string& name, const Scene& scene, const PictureView& view, const std::string& caption) const;
 

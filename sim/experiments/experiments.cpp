@@ -12,8 +12,8 @@ namespace {
 constexpr const char* head =
     "# The experiments of both sources\n"
     "\n"
-    "**No measured radar data can be had.** Neither text prints any, and the data sets that they used are not to be had with their scenes. So what stands here is held against what the texts *report*: the source's figure in\n"
-    "words, ours as pictures and numbers, and what differs. Sizes that the texts do not print are ours, and the worlds say so.\n"
+    "**No measured radar data can be had** to hold these experiments against: neither text prints any. So they are held against what the texts *report*: the source's figure in words, ours as pictures and numbers, and what\n"
+    "differs. Sizes that the texts do not print are ours, and the worlds say so.\n"
     "\n"
     "This page and all its pictures are made by `thicket experiments`. `thicket experiments NAME` makes one section anew, `thicket experiments --list` lists them. All of it is the same bytes each time, but for tables of times and\n"
     "memory, which say so.\n"

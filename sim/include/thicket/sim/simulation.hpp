@@ -48,7 +48,8 @@ struct Stage {
   Scene scene;  ///< as it is at time 0; each simulation has its own, whose solids move
   std::vector<std::shared_ptr<const Sensor>> sensors;
   std::vector<std::size_t> bumper_sensors;  ///< places in `sensors`; the planner decides when the first of them has scanned
-  std::optional<std::size_t> sar_sensor;    ///< place in `sensors` of the one whose scans make the image, if there is to be one FlightModel flight; a vehicle that flies
+  std::optional<std::size_t> sar_sensor;    ///< place in `sensors` of the one whose scans make the image, if there is to be one
+  FlightModel flight;  ///< of a vehicle that flies
 };
 
 class Simulation {
