@@ -108,7 +108,7 @@ std::string first_value(const Key& key) {
 }
 
 bool matches(std::string_view search, std::string_view title, const Key& key) {
-  const std::string text = lower(title) + " " + lower(key.name) + " " + lower(key.help) + " " + lower(key.unit), wanted = lower(search);
+  const std::string text = lower(title) + "." + lower(key.name) + " " + lower(key.help) + " " + lower(key.unit), wanted = lower(search);
   for (std::size_t from = 0; from < wanted.size();) {
     const std::size_t end = std::min(wanted.find(' ', from), wanted.size());
     if (text.find(wanted.substr(from, end - from)) == std::string::npos) return false;

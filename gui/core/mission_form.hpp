@@ -32,7 +32,7 @@ bool is_optional(const Key& key, const void* defaults);
 /// What an optional key begins with when it is given at last: 0 or the nearest that its range allows, as many as it takes.
 std::string first_value(const Key& key);
 
-/// Whether a word stands in the name of a key, its help, or the title of its section; letters' case does not count.
+/// Whether every word stands in the name of a key, its help, or the title of its section; letters' case does not count, and "planner.name" is found as the command line has it.
 bool matches(std::string_view search, std::string_view title, const Key& key);
 
 /// What was saved.
