@@ -69,7 +69,7 @@ TEST_CASE("plan: a large mesh is a rectangle until its footprint is made, which 
   // All of the rectangle is covered.
   const auto& kept = std::find_if(textures.all.begin(), textures.all.end(), [](const auto& one) { return one.first.starts_with("world mask"); })->second;
   const auto middle = static_cast<std::size_t>(kept.height / 2 * kept.width + kept.width / 2);
-  CHECK(kept.pixels[middle] >> 24 > 250u);
+  CHECK((kept.pixels[middle] >> 24) > 250u);
   // Another world while it is made: what is gone is not waited for, what is there comes.
   const auto other = make_world_view();
   KeptTextures fresh;
