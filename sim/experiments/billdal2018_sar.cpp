@@ -107,7 +107,7 @@ std::string room_image(ExperimentContext& context) {
   text += "One lobe, which looks outward all the way round, once summed as the source does and once with phase over the true track.\n\n" + context.picture("image", "dB against the brightest pixel. Inside the room is x from -5 to 5 and y from -4 to 4 m.") + table({"method", "scans"}, rows);
   return text + "**What differs.** As in the source the plate is the brightest, parts of the walls are there, and there is less of the room than in its map: corners are missing, for a wall answers where it is squarely met. The simple sum has walls as lines "
                 "where they are, the window's pane brighter than the concrete around it, a gap in the south wall's strength at the door (x = -2.5 m), the east wall twice, above and below the shadow of the plate, and spokes where it turns in the corners. Back-projection "
-                "lays every profile over the whole of the lobe: walls become ragged, for with 30 × 30 jittered rays the phases of a large surface do not agree from scan to scan, and the plate is spread to twice its length, 0.2 m nearer besides. It is made for small things "
+                "lays every profile over the whole of the lobe: walls become ragged, for with 30 × 30 jittered rays the phases of a large surface do not agree from scan to scan, and the plate is spread to twice its length, 0.1 m to 0.2 m too near. It is made for small things "
                 "under a regular grid of many rays ([sar.md](sar.md)), and is the worse image here.\n\n";
 }
 
