@@ -90,7 +90,7 @@ TEST_CASE("keys: a key does one thing, every deed has one, and typed letters are
       CAPTURE(table[j].help);
       CHECK_FALSE((table[i].key == table[j].key && table[i].ctrl == table[j].ctrl && table[i].shift == table[j].shift));
     }
-  for (int deed = 0; deed <= static_cast<int>(Deed::drive_right); ++deed) {
+  for (int deed = 0; deed <= static_cast<int>(Deed::fly_right); ++deed) {
     CAPTURE(deed);
     CHECK(*key_of(static_cast<Deed>(deed)) != '\0');
   }
