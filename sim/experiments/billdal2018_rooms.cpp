@@ -61,7 +61,7 @@ std::string ntnu_room(ExperimentContext& context) {
   text += context.path_picture("way", runs.back(), "The way, which the robot keeps before the plate.") + pictures + table(score_head, rows) + score_words;
   text += "With 64-bit cells the source has 80 kB, 500 kB, 2 MB and 8 MB for 50 × 50 m; the last column is all that our map holds.\n\n" + room_by_other_keys(context);
   text += "**What differs.** In cells of 0.2 m and less the walls are lines in the right places; in cells of 0.5 m they are as thick as the gaps between things, as in the source. About half of the cells claimed are wrong, mostly the arcs that stick out of the "
-          "corners: there no second look told where on its arc the echo was. The source has more false cells at 0.2 m than at 0.1 m; in ours their share rises as cells get smaller. Beyond the arcs space behind walls stays unknown. Of the door there is a notch of 0.2 m at "
+          "corners: there no second look told where on its arc the echo was. The source has more false cells at 0.2 m than at 0.1 m; in ours their share rises as cells get smaller. Space behind walls stays unknown but for the arcs, and for corners that are freed where it turns, as in the source. Of the door there is a notch of 0.2 m at "
           "most, of the window nothing, as in the source: a lobe of 65° is wider than they are where it passes them, and the nearest thing in it is always a wall. A beam radar finds them ([mapping.md](mapping.md)).\n\nThe **plate** is the great difference: the source has it, and ours is "
           "one cell of it. Smooth steel answers squarely met and is silent from everywhere else, and silence frees cells. With diffuse surfaces, which is what the source's cosine means, the same flight has the plate and even what the source praises, unknown space behind it. "
           "How much of a lobe is freed matters as much: with the default of 0.7 the silence of lobes that pass along a wall wipes half of it out again, and the missions of 2018 therefore free 0.4.\n\n";
@@ -133,9 +133,9 @@ std::string cargo_hold(ExperimentContext& context) {
   const FinishedRun freed = context.run("cargo_hold/along_walls", shortened(context, {"map.lobe_share=0.7"})), bounced = context.run("cargo_hold/along_walls", shortened(context, {"sensor.bounces_max=3"}));
   text += context.path_picture("way", fine, "The way along the walls.") + context.map_picture("map", fine, "The map, in cells of 0.1 m.");
   text += table(score_head, {score_row("0.1 m", fine), score_row("0.1 m, 0.7 of a lobe is freed, the default", freed), score_row("0.1 m, 3 bounces", bounced)}) + score_words;
-  text += "\n\n**What differs.** The source could not trace its CAD model and flew between hand-made walls; ours flies in the mesh itself. Both long walls are lines, and so are the bulkheads; at the lobe passing a flange it is that which is seen first, and between two the plate. "
-          "Arcs stick out of the corners, as in the test room. The source says that almost nothing is detected. So it is here for the lobes ahead and behind, which are silent for most of the way; their silence wipes the walls out if 0.7 of it counts (second row). Corners of web "
-          "and plate answer over two surfaces: the third row. Its mapping costs most when nothing is hit; ours has the share of the time below.\n\n";
+  text += "\n\n**What differs.** The source could not trace its CAD model and flew between hand-made walls; ours flies in the mesh itself. Both long walls are lines, the bulkheads dashes; of the flanges, which are seen first for a few scans each, little is left. "
+          "Arcs stick out of the corners, and behind walls space is freed where it turns, as the source has it in its rooms. The source says that almost nothing is detected. So it is here for the lobes ahead and behind, which are silent for most of the way; their silence wipes the walls out if 0.7 of it counts (second row). Corners of web "
+          "and plate answer over two surfaces and break the silence: the third row has nearly all surfaces. Its mapping costs most when nothing is hit; ours has the share of the time below.\n\n";
   return text + cost_table({"flight"}, {{{"along the walls"}, &fine}});
 }
 
