@@ -7,9 +7,6 @@
 
 namespace thicket {
 
-/// The altitude, m, that a flight goes to first: altitude_m, else the start's, else (from the floor) that of the first way-point.
-double flight_altitude(const PlannerSpec& spec, double start_altitude);
-
 /// `planner`, which knows nothing of altitudes, at one altitude: takes off to `flight_altitude`, asks the planner while that is held, lands at the end if `spec.land`. Its reasons then say at which altitude. A
 /// planner that commands an altitude of its own has it.
 std::unique_ptr<Planner> make_flight(std::unique_ptr<Planner> planner, const PlannerSpec& spec, const VehicleLimits& vehicle, const Pose2& start);

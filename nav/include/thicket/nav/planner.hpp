@@ -123,6 +123,12 @@ class Planner {
   virtual std::unique_ptr<Planner> clone() const = 0;
 };
 
+/// The altitude, m, that a flight goes to first: altitude_m, else the start's, else (from the floor) that of the first way-point.
+double flight_altitude(const PlannerSpec& spec, double start_altitude);
+
+/// The altitudes of the way-points, m; one that tells none has that of the one before it, the first that of the flight.
+std::vector<double> waypoint_altitudes(const PlannerSpec& spec, double start_altitude);
+
 /// What is wrong with the keys of [planner] for a vehicle that flies or does not, in words that tell what to do; empty: nothing. `start_altitude` is z at the start, m.
 std::string flight_fault(const PlannerSpec& spec, bool flies, double start_altitude);
 
