@@ -39,6 +39,7 @@ struct PlannerSpec {
   double hover_s = 0.0;                 ///< time to stand at each way-point
   std::optional<double> heading_deg;    ///< held while it moves, be it sideways; vehicles that fly only
   std::optional<double> altitude_m;     ///< flight altitude; not given: the start's
+  std::optional<double> ceiling_m;      ///< height of a ceiling that is known of; echoes from there are no obstacles
   bool land = false;                    ///< down to the floor at the end
   std::string hand = "left";            ///< which hand touches the wall while following it
   double clearance_m = 1.0;             ///< between hull and matter: two lengths of a P3-AT (2012: two to three)
