@@ -1,6 +1,5 @@
 #include "thicket/nav/contour.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -11,7 +10,6 @@ namespace thicket {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
-constexpr double on_floor = 0.05;  // m: what is lower than this is the floor
 
 /// Bearing of the point at `range` on a ray that starts off the vehicle's axis. It differs from the ray's own by the parallax, whose tangent is known; where that is small, a few terms of the
 /// arc tangent's series are exact to the rounding of doubles and take a fraction of its time.
@@ -26,10 +24,10 @@ double bearing_off_axis(const glm::dvec2& mount, const glm::dvec2& at, double ra
 
 }  // namespace
 
-void ContourReader::learn(const Scan& scan, const glm::dquat& orientation) {
+void ContourReader::learn(const Scan& scan) {
   constexpr double spacing = 0.035;  // rad, 2 degrees
-  if (orientation != mount_ || scan.azimuth_opening != opening_ || scan.beams.size() != directions_.size()) {
-    mount_ = orientation;
+  if (scan.mount_orientation != mount_ || scan.azimuth_opening != opening_ || scan.beams.size() != directions_.size()) {
+    mount_ = scan.mount_orientation;
     opening_ = scan.azimuth_opening;
     directions_.assign(scan.beams.size(), glm::dvec3(0.0));
     rays_.assign(scan.beams.size() * fan_size(scan, spacing), Ray{});
@@ -39,26 +37,16 @@ void ContourReader::learn(const Scan& scan, const glm::dquat& orientation) {
     directions_[i] = scan.beams[i].direction;
     std::size_t next = i * fan_size(scan, spacing);
     for_fan(scan, scan.beams[i], spacing, [&](const glm::dvec3& direction) {
-      const glm::dvec3 there = orientation * direction;
-      const glm::dvec2 along(there);
-      rays_[next++] = {along, glm::length(along), bearing(along), there.z};
+      const glm::dvec2 along(scan.mount_orientation * direction);
+      rays_[next++] = {along, glm::length(along), bearing(along)};
     });
   }
 }
 
-void ContourReader::add(const Scan& scan, Contour& contour, const Aloft* aloft) {
+void ContourReader::add(const Scan& scan, Contour& contour) {
   if (scan.beams.empty()) return;
-  learn(scan, aloft ? aloft->tilt * scan.mount_orientation : scan.mount_orientation);
-  const glm::dvec3 place = aloft ? aloft->tilt * scan.mount_position : scan.mount_position;
-  const glm::dvec2 mount(place);
-  // Of what the beam meets at a range, all must be on the floor or below, or on the ceiling or above; ranges are noisy.
-  const double grain = std::max(on_floor, 3.0 * scan.range_noise), above_floor = aloft ? aloft->altitude + place.z : 0.0;
-  const auto passes = [&](const Ray& ray, double range) {
-    if (!aloft) return false;
-    const double elevation = std::atan2(ray.rise, ray.flat), half = 0.5 * scan.elevation_opening;
-    const double highest = half > 0.0 ? std::sin(std::min(0.5 * pi, elevation + half)) : ray.rise, lowest = half > 0.0 ? std::sin(std::max(-0.5 * pi, elevation - half)) : ray.rise;
-    return above_floor + range * highest <= grain || above_floor + range * lowest >= aloft->ceiling - grain;
-  };
+  learn(scan);
+  const glm::dvec2 mount(scan.mount_position);
   const bool on_axis = mount == glm::dvec2(0.0);
   const std::size_t per_beam = rays_.size() / scan.beams.size();
   const Ray* ray = rays_.data();
@@ -68,7 +56,7 @@ void ContourReader::add(const Scan& scan, Contour& contour, const Aloft* aloft) 
     const double range = beam.starts_inside || !sees ? 0.0 : scan.echoes[beam.first_echo].range;
     const std::uint32_t arc = per_beam > 1 ? static_cast<std::uint32_t>(contour.size()) : no_arc;
     for (std::size_t k = 0; k < per_beam; ++k, ++ray) {
-      if (!sees || passes(*ray, range)) {
+      if (!sees) {
         contour.push_back({{0.0, 0.0}, none, ray->bearing, arc});
       } else if (on_axis) {
         contour.push_back({range * ray->along, range * ray->flat, ray->bearing, arc});
@@ -80,9 +68,9 @@ void ContourReader::add(const Scan& scan, Contour& contour, const Aloft* aloft) 
   }
 }
 
-void ContourReader::add(const Scan& scan, const Pose2& then, Contour& contour, const Aloft* aloft) {
+void ContourReader::add(const Scan& scan, const Pose2& then, Contour& contour) {
   const std::size_t first = contour.size();
-  add(scan, contour, aloft);
+  add(scan, contour);
   if (then.position == glm::dvec2(0.0) && then.yaw == 0.0) return;
   const glm::dvec2 forward = direction(then.yaw);
   for (std::size_t i = first; i < contour.size(); ++i) {

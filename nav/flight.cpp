@@ -109,7 +109,7 @@ std::string flight_fault(const PlannerSpec& spec, bool flies, double start_altit
   if (!spec.waypoint_speeds_m_s.empty() && spec.waypoint_speeds_m_s.size() != spec.waypoints_m.size())
     return fmt::format("'waypoint_speeds_m_s' has {} numbers, expected one for each of the {} way-points", spec.waypoint_speeds_m_s.size(), spec.waypoints_m.size());
   if (!flies) {
-    const char* key = spec.heading_deg ? "heading_deg" : spec.altitude_m ? "altitude_m" : spec.ceiling_m ? "ceiling_m" : spec.land ? "land" : nullptr;
+    const char* key = spec.heading_deg ? "heading_deg" : spec.altitude_m ? "altitude_m" : spec.land ? "land" : nullptr;
     if (key) return fmt::format("'{}' needs a vehicle that flies: give vehicle.preset = \"hector_quadrotor\", or leave the key away", key);
     if (rises) return "a way-point has an altitude (z), which needs a vehicle that flies: give vehicle.preset = \"hector_quadrotor\", or leave z away";
     return "";

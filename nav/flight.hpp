@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "thicket/nav/altitude.hpp"
 #include "thicket/nav/planner.hpp"
 
 namespace thicket {

@@ -81,7 +81,6 @@ const Section& planner_section() {
           .key("hover_s", &S::hover_s, "s", between(0.0, 1e6), "time to stand at each way-point")
           .key("heading_deg", &S::heading_deg, "deg", between(-36000.0, 36000.0), "of a quadrotor on way-points: the heading that it holds while it moves, be it sideways (strafing); not given: where it goes")
           .key("altitude_m", &S::altitude_m, "m", above_up_to(0.0, 1e6), "of a quadrotor: flight altitude above z = 0, taken before anything else; not given: the start's")
-          .key("ceiling_m", &S::ceiling_m, "m", above_up_to(0.0, 1e6), "of a quadrotor: height of the ceiling above z = 0, if it is known: what a tilted beam meets there is no obstacle; not given: none is known")
           .key("land", &S::land, "of a quadrotor: down to the floor after the goal or the last way-point, then the verdict")
           .choice("hand", &S::hand, {"left", "right"}, "which hand touches the wall while following it; left turns right at a wall")
           .key("clearance_m", &S::clearance_m, "m", above_up_to(0.0, 1e3), "distance kept between hull and matter; a gap narrower than the hull and two of it is a wall. auto: the widest that leaves a way to the goal, computed from the world before the run")

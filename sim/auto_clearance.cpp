@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "thicket/nav/altitude.hpp"
+#include "thicket/sim/travel.hpp"
 #include "thicket/worlds/truth.hpp"
 
 namespace thicket {

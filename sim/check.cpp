@@ -8,6 +8,8 @@
 #include <map>
 #include <optional>
 
+#include "thicket/nav/altitude.hpp"
+#include "thicket/sim/travel.hpp"
 #include "thicket/worlds/truth.hpp"
 
 namespace thicket {

@@ -8,6 +8,7 @@
 
 #include "thicket/sim/map_score.hpp"
 #include "thicket/sim/simulation.hpp"
+#include "thicket/sim/travel.hpp"
 
 namespace thicket {
 namespace {

@@ -12,6 +12,7 @@
 #include "thicket/base/probability_file.hpp"
 #include "thicket/sim/probability_picture.hpp"
 #include "thicket/sim/sar.hpp"
+#include "thicket/sim/travel.hpp"
 #include "thicket/worlds/truth.hpp"
 
 namespace thicket {

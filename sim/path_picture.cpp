@@ -13,6 +13,7 @@
 #include "canvas.hpp"
 #include "picture_view.hpp"
 #include "thicket/sim/outputs.hpp"
+#include "thicket/sim/travel.hpp"
 #include "thicket/worlds/free_space.hpp"
 
 namespace thicket {

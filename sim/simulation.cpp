@@ -198,7 +198,7 @@ void Simulation::sense() {
     ++totals_.scans;
     totals_.rays += scans_[i].rays;
     scan_estimates_[i] = estimate();
-    if (flies) scan_aloft_[i] = {vehicle_.tilt(), vehicle_.z, stage_->mission.planner.ceiling_m.value_or(infinity)};
+    if (flies) scan_aloft_[i] = {vehicle_.tilt(), vehicle_.z};
     decides = decides || i == stage_->bumper_sensors.front();
     if (stage_->mission.map.enabled) {
       const Stopwatch watch(times_.map);
@@ -228,12 +228,15 @@ void Simulation::decide() {
   const Stopwatch watch(times_.plan);
   const Pose2& now = estimate();
   contour_.clear();
+  const bool flies = stage_->mission.vehicle.flies();
+  Scan level;
   for (const std::size_t i : stage_->bumper_sensors) {
     // What was sensed a while ago is where it was, and the robot has moved since, as it believes.
     const bool fresh = scans_[i].time == time();
-    const Aloft* aloft = stage_->mission.vehicle.flies() ? &scan_aloft_[i] : nullptr;
-    if (fresh) readers_[i].add(scans_[i], contour_, aloft);
-    else readers_[i].add(scans_[i], {now.to_inner(scan_estimates_[i].position), wrap_angle(scan_estimates_[i].yaw - now.yaw)}, contour_, aloft);
+    if (flies) make_level(scans_[i], scan_aloft_[i], level);
+    const Scan& scan = flies ? level : scans_[i];
+    if (fresh) readers_[i].add(scan, contour_);
+    else readers_[i].add(scan, {now.to_inner(scan_estimates_[i].position), wrap_angle(scan_estimates_[i].yaw - now.yaw)}, contour_);
   }
   bumpers_.read(contour_);
   if (manual_) return;

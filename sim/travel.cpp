@@ -1,7 +1,8 @@
-// At which heights a mission's vehicle moves: all that looks at the world before or beside the run asks here.
+#include "thicket/sim/travel.hpp"
+
 #include <algorithm>
 
-#include "thicket/sim/mission.hpp"
+#include "thicket/nav/altitude.hpp"
 
 namespace thicket {
 

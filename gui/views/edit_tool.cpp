@@ -10,6 +10,7 @@
 
 #include "../core/editor_shapes.hpp"
 #include "thicket/base/pose.hpp"
+#include "thicket/sim/travel.hpp"
 #include "thicket/worlds/shape_fault.hpp"
 
 namespace thicket::gui {

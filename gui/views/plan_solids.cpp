@@ -8,6 +8,7 @@
 
 #include "plan.hpp"
 #include "thicket/sim/material_colour.hpp"
+#include "thicket/sim/travel.hpp"
 
 namespace thicket::gui {
 namespace {

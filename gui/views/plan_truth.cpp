@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "plan.hpp"
+#include "thicket/sim/travel.hpp"
 
 namespace thicket::gui {
 namespace {

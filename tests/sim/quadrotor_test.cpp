@@ -6,85 +6,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "finished.hpp"
-#include "thicket/base/files.hpp"
-#include "thicket/sim/flight.hpp"
+#include "flights.hpp"
 #include "thicket/sim/trajectory.hpp"
 
 namespace thicket {
-namespace {
-
-VehicleSpec quadrotor() {
-  VehicleSpec spec;
-  spec.type = "quadrotor";
-  spec.radius_m = 0.402;
-  spec.height_m = 0.2;
-  spec.speed_max_m_s = 10.0;
-  spec.turn_acceleration_deg_s2 = 360.0;
-  return spec;
-}
-
-/// A flight by itself: one short-sighted sensor, no map.
-Mission flight(const glm::dvec3& start) {
-  Mission mission;
-  mission.vehicle = quadrotor();
-  mission.vehicle.model = "kinematic";
-  mission.start = {start.x, start.y, start.z, 0.0};
-  mission.step_s = 0.01;
-  LidarSpec blind;
-  blind.range_max_m = 0.01;
-  mission.sensors = {blind};
-  mission.map.enabled = false;
-  mission.planner.name = "waypoints";
-  mission.planner.clearance_m = 0.01;
-  mission.planner.speed_m_s = 1.0;
-  mission.planner.waypoints_m = {{start.x, start.y, 1.0}};
-  return mission;
-}
-
-World world_of(Shape shape, const glm::dvec3& position) {
-  World world;
-  Material material;
-  material.name = "wall";
-  world.materials.push_back(material);
-  world.solids.push_back({"thing", 0, position, 0.0, std::move(shape)});
-  return world;
-}
-
-Simulation flown(const Mission& mission, World world) {
-  auto simulation = Simulation::create(mission, std::move(world));
-  if (!simulation) FAIL(simulation.error().message);
-  while (simulation->step()) {
-  }
-  return *simulation;
-}
-
-/// Flies by hand until something is touched, or for some seconds.
-Simulation driven(const Mission& mission, World world, const Command& command, double seconds) {
-  auto simulation = Simulation::create(mission, std::move(world));
-  if (!simulation) FAIL(simulation.error().message);
-  REQUIRE_FALSE(simulation->verdict());
-  simulation->drive(command);
-  while (simulation->time() < seconds && simulation->step()) {
-  }
-  return *simulation;
-}
-
-Command climbing(double rate) {
-  Command command;
-  command.climb = rate;
-  return command;
-}
-
-Mission shipped(const char* name, const std::vector<Override>& overrides = {}) {
-  auto mission = read_mission(find_input(name), overrides);
-  if (!mission) FAIL(mission.error().message);
-  return *mission;
-}
-
-std::string verdict(const Simulation& simulation) { return simulation.verdict() ? to_string(simulation.verdict()->kind) : "running"; }
-
-}  // namespace
 
 TEST_CASE("kinematic quadrotor: a step of 1 s is a thousand of 1 ms, with limits, with drag and while an altitude is taken") {
   VehicleSpec spec = quadrotor();

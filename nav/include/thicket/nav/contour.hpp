@@ -23,13 +23,6 @@ struct ContourPoint {
   std::uint32_t arc = no_arc;     ///< the same for all points of one arc: the matter is somewhere on it; `no_arc`: a point by itself
 };
 
-/// How a vehicle that flies is in space, as it knows itself. One that does not is level, and asks nothing of heights.
-struct Aloft {
-  glm::dquat tilt{1.0, 0.0, 0.0, 0.0};                                ///< turns its own frame into the level one that looks the same way
-  double altitude = 0.0;                                              ///< m, of its frame above the floor, which is at z = 0
-  double ceiling = std::numeric_limits<double>::infinity();           ///< m above the floor; +inf: none is known of
-};
-
 /// One point a beam: its first echo, projected to the plane; of a beam with an opening, which may have met it anywhere in there, an arc of points. Whatever gives an echo is taken to stop motion: a
 /// robot cannot know more. A sensor inside visible matter gives a point at the sensor.
 using Contour = std::vector<ContourPoint>;
@@ -37,23 +30,21 @@ using Contour = std::vector<ContourPoint>;
 /// Makes contours of the scans of one sensor. It remembers where the sensor's beams point, which is the same in every scan but for sensors with rays at random places.
 class ContourReader {
  public:
-  /// Adds the points of a scan that was made where the vehicle is now. Of one that flies: `aloft` is how it was when it scanned. Its contour is of the level frame, and an echo that can only be from the floor or
-  /// the ceiling is none.
-  void add(const Scan& scan, Contour& contour, const Aloft* aloft = nullptr);
+  /// Adds the points of a scan that was made where the vehicle is now.
+  void add(const Scan& scan, Contour& contour);
   /// The same of a scan that was made when the vehicle was at `then`, which is given in the vehicle's frame of now.
-  void add(const Scan& scan, const Pose2& then, Contour& contour, const Aloft* aloft = nullptr);
+  void add(const Scan& scan, const Pose2& then, Contour& contour);
 
  private:
   /// A thin beam, seen from above in the vehicle's frame.
   struct Ray {
     glm::dvec2 along{0.0, 0.0};  ///< the part of its unit vector in the plane
     double flat = 1.0;           ///< the length of that
-    double rise = 0.0;           ///< its upward part
     double bearing = 0.0;        ///< rad
   };
-  void learn(const Scan& scan, const glm::dquat& orientation);
+  void learn(const Scan& scan);
 
-  glm::dquat mount_{0.0, 0.0, 0.0, 0.0};  ///< the orientation, in the level frame, that `rays_` are for; none at first
+  glm::dquat mount_{0.0, 0.0, 0.0, 0.0};  ///< the orientation that `rays_` are for; none at first
   double opening_ = 0.0;
   std::vector<glm::dvec3> directions_;    ///< of the beams that `rays_` are made of
   std::vector<Ray> rays_;                 ///< equally many for each of them

@@ -39,7 +39,6 @@ struct PlannerSpec {
   double hover_s = 0.0;                 ///< time to stand at each way-point
   std::optional<double> heading_deg;    ///< held while it moves, be it sideways; vehicles that fly only
   std::optional<double> altitude_m;     ///< flight altitude; not given: the start's
-  std::optional<double> ceiling_m;      ///< height of a ceiling that is known of; echoes from there are no obstacles
   bool land = false;                    ///< down to the floor at the end
   std::string hand = "left";            ///< which hand touches the wall while following it
   double clearance_m = 1.0;             ///< between hull and matter: two lengths of a P3-AT (2012: two to three)
@@ -123,12 +122,6 @@ class Planner {
   virtual std::vector<Mark> marks() const = 0;
   virtual std::unique_ptr<Planner> clone() const = 0;
 };
-
-/// The altitude, m, that a flight goes to first: altitude_m, else the start's, else (from the floor) that of the first way-point.
-double flight_altitude(const PlannerSpec& spec, double start_altitude);
-
-/// The altitudes of the way-points, m; one that tells none has that of the one before it, the first that of the flight.
-std::vector<double> waypoint_altitudes(const PlannerSpec& spec, double start_altitude);
 
 /// What is wrong with the keys of [planner] for a vehicle that flies or does not, in words that tell what to do; empty: nothing. `start_altitude` is z at the start, m.
 std::string flight_fault(const PlannerSpec& spec, bool flies, double start_altitude);

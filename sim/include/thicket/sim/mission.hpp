@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -95,15 +94,6 @@ std::string describe_mission_file();
 /// Which sensors drive the bumpers, as places in `sensors`, in order: those that `bumpers.sensors` names; without names the first, and if that is a lobe radar all lobe radars. Never empty. Names
 /// that no sensor has are passed over; `read_mission` complains of them.
 std::vector<std::size_t> bumper_sensors(const Mission& mission);
-
-/// The z, m, at which the vehicle's foot moves: the start's of one that drives; of one that flies the flight altitude, then, if it comes by way-points, those of theirs that differ. Never empty. Take-offs and
-/// landings are not in it.
-std::vector<double> travel_heights(const Mission& mission);
-/// The lowest and the highest of them.
-std::pair<double, double> travel_range(const Mission& mission);
-
-/// The z of the ground, m: under one that drives that of its start, under one that flies 0.
-double ground_height(const Mission& mission);
 
 /// The formats that `output.map_formats` may name: scale, raw, npy, ot, bt, picture.
 const std::vector<std::string>& map_format_names();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "thicket/base/result.hpp"
+#include "thicket/nav/aloft.hpp"
 #include "thicket/nav/bumper.hpp"
 #include "thicket/nav/occupancy_map.hpp"
 #include "thicket/nav/planner.hpp"
