@@ -286,6 +286,21 @@ TEST_CASE("one flight with steps of 1 to 50 ms is the same flight all the way: s
   }
 }
 
+TEST_CASE("rigid body: it takes up a turn as fast with a step of 1 ms as with one of 50 ms") {
+  for (const double step : {1e-3, 1e-2, 5e-2}) {
+    CAPTURE(step);
+    Mission mission = flight({0.0, 0.0, 1.0});
+    mission.vehicle.model = "rigid_body";
+    mission.step_s = step;
+    Command turn;
+    turn.turn_rate = 1.0;
+    turn.altitude = 1.0;
+    const Simulation turned = driven(mission, World{}, turn, 0.5);
+    // A first order with 8 / s: 1 - e^-4 of the rate after half a second.
+    CHECK(turned.vehicle().turn_rate == doctest::Approx(1.0 - std::exp(-4.0)).epsilon(0.02));
+  }
+}
+
 TEST_CASE("flights in gusts are the same bits again, and a copy in mid-air goes on the same way") {
   Mission mission = shipped("quadrotor/waypoints", {{"map.enabled", "false", "test"}, {"vehicle.gust_m_s", "0.3", "test"}, {"vehicle.jitter_m_s", "0.05", "test"}, {"limits.time_s", "8.0", "test"}, {"sensor.azimuth_rays", "4", "test"}, {"sensor.elevation_rays", "4", "test"}});
   auto first = Simulation::create(mission), second = Simulation::create(mission);
