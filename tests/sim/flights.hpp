@@ -35,6 +35,7 @@ inline Mission flight(const glm::dvec3& start) {
   mission.step_s = 0.01;
   LidarSpec blind;
   blind.range_max_m = 0.01;
+  blind.position_m = {0.0, 0.0, 0.1};  // in the hull: above it, it could be in what the hull flies under
   mission.sensors = {blind};
   mission.map.enabled = false;
   mission.planner.name = "waypoints";
