@@ -226,7 +226,7 @@ TEST_CASE("the quadrotor's shipped missions end as they say") {
   for (const auto& [name, expected] : {std::pair{"quadrotor/hover", "reached"}, {"quadrotor/waypoints", "reached"}, {"quadrotor/bug2", "reached"}, {"quadrotor/closed_here", "unreachable"}}) {
     CAPTURE(name);
     // As they are but for what takes time: the map, standing still, and rays of lobes.
-    std::vector<Override> changes = {{"map.enabled", "false", "test"}, {"planner.hover_s", "0.5", "test"}};
+    std::vector<Override> changes = {{"map.enabled", "false", "test"}, {"planner.hover_s", "0.5", "test"}, {"planner.speed_m_s", "0.5", "test"}};
     if (name != std::string("quadrotor/closed_here")) changes.insert(changes.end(), {{"sensor.azimuth_rays", "10", "test"}, {"sensor.elevation_rays", "10", "test"}});
     const Simulation simulation = finished(shipped(name, changes));
     CAPTURE(simulation.verdict()->reason);
