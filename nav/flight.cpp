@@ -96,6 +96,13 @@ double flight_altitude(const PlannerSpec& spec, double start_altitude) {
   return start_altitude;
 }
 
+std::vector<double> waypoint_altitudes(const PlannerSpec& spec, double start_altitude) {
+  double altitude = flight_altitude(spec, start_altitude);
+  std::vector<double> altitudes;
+  for (const Waypoint& point : spec.waypoints_m) altitudes.push_back(altitude = point.altitude.value_or(altitude));
+  return altitudes;
+}
+
 std::string flight_fault(const PlannerSpec& spec, bool flies, double start_altitude) {
   const bool waypoints = spec.name == "waypoints";
   const bool rises = std::any_of(spec.waypoints_m.begin(), spec.waypoints_m.end(), [](const Waypoint& point) { return point.altitude.has_value(); });

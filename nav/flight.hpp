@@ -3,12 +3,10 @@
 
 #include <memory>
 
+#include "thicket/nav/altitude.hpp"
 #include "thicket/nav/planner.hpp"
 
 namespace thicket {
-
-/// The altitude, m, that a flight goes to first: altitude_m, else the start's, else (from the floor) that of the first way-point.
-double flight_altitude(const PlannerSpec& spec, double start_altitude);
 
 /// `planner`, which knows nothing of altitudes, at one altitude: takes off to `flight_altitude`, asks the planner while that is held, lands at the end if `spec.land`. Its reasons then say at which altitude. A
 /// planner that commands an altitude of its own has it.

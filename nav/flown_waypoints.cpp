@@ -19,11 +19,8 @@ class FlownWaypoints final : public Planner {
  public:
   FlownWaypoints(const PlannerSpec& spec, const VehicleLimits& vehicle, const Pose2& start)
       : pilot_(spec, vehicle), spec_(spec), vehicle_(vehicle), from_(start.position, flight_altitude(spec, vehicle.flight->start_altitude)), heading_(start.yaw) {
-    double altitude = from_.z;
-    for (const Waypoint& point : spec.waypoints_m) {
-      altitude = point.altitude.value_or(altitude);
-      points_.emplace_back(point.position, altitude);
-    }
+    const auto altitudes = waypoint_altitudes(spec, vehicle.flight->start_altitude);
+    for (std::size_t i = 0; i < altitudes.size(); ++i) points_.emplace_back(spec.waypoints_m[i].position, altitudes[i]);
     begin_leg();
   }
   std::unique_ptr<Planner> clone() const override { return std::make_unique<FlownWaypoints>(*this); }

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <numbers>
 #include <vector>
 
+#include "thicket/nav/altitude.hpp"
+#include "thicket/sim/travel.hpp"
 #include "thicket/worlds/truth.hpp"
 
 namespace thicket {
@@ -15,10 +18,12 @@ namespace {
 struct Judge {
   World world;  ///< as it is at time 0
   glm::dvec2 low{0.0}, high{0.0};
-  double cell = 0.05, z_low = 0.0, z_high = 0.0, radius = 0.0;
+  double cell = 0.05, radius = 0.0;
+  Hull hull;
 
-  std::optional<TruthGrid> grown(double clearance) const {
-    auto grid = grown_obstacles(world, low, high, cell, radius + 1.1 * clearance + cell, z_low, z_high);
+  /// For a hull whose foot is anywhere from one height to another.
+  std::optional<TruthGrid> grown(double clearance, double from, double to) const {
+    auto grid = grown_obstacles(world, low, high, cell, radius + 1.1 * clearance + cell, std::min(from, to) + hull.z_low, std::max(from, to) + hull.z_high);
     if (!grid) return std::nullopt;
     return std::move(*grid);
   }
@@ -28,9 +33,7 @@ Judge make_judge(const Mission& mission, const World& world, const std::vector<g
   Judge judge;
   judge.world = world_at(world, 0.0);
   judge.radius = mission.vehicle.radius_m;
-  const Hull hull = mission.vehicle.hull();
-  judge.z_low = mission.start.z_m + hull.z_low;
-  judge.z_high = mission.start.z_m + hull.z_high;
+  judge.hull = mission.vehicle.hull();
   judge.low = judge.high = stops.front();
   const auto hold = [&](const glm::dvec2& p) {
     judge.low = glm::min(judge.low, p);
@@ -68,25 +71,33 @@ std::optional<double> largest(double most, const std::function<bool(double)>& ho
 double auto_clearance(const Mission& mission, const World& world) {
   const double length = std::numbers::sqrt2 * mission.vehicle.radius_m, most = 3.0 * length, least = 0.01 * mission.vehicle.radius_m;
   std::vector<glm::dvec2> stops = {{mission.start.x_m, mission.start.y_m}};
-  if (planner_needs(mission.planner.name) == PlannerNeeds::waypoints) stops.insert(stops.end(), mission.planner.waypoints_m.begin(), mission.planner.waypoints_m.end());
-  else if (mission.planner.goal_m) stops.push_back(*mission.planner.goal_m);
+  // What flies is judged at its flight altitude, and from one way-point to the next at every altitude between the two.
+  std::vector<double> heights = {travel_heights(mission).front()};
+  if (planner_needs(mission.planner.name) == PlannerNeeds::waypoints) {
+    stops.insert(stops.end(), mission.planner.waypoints_m.begin(), mission.planner.waypoints_m.end());
+    if (mission.vehicle.flies()) std::ranges::copy(waypoint_altitudes(mission.planner, mission.start.z_m), std::back_inserter(heights));
+  } else if (mission.planner.goal_m) {
+    stops.push_back(*mission.planner.goal_m);
+  }
+  heights.resize(stops.size(), heights.front());
   const Judge judge = make_judge(mission, world, stops, most);
   if (stops.size() > 1) {
     const auto joined = largest(most, [&](double clearance) {
-      const auto grid = judge.grown(clearance);
-      if (!grid) return false;
-      for (std::size_t i = 1; i < stops.size(); ++i)
-        if (!connected(*grid, stops[i - 1], stops[i])) return false;
+      std::optional<TruthGrid> grid;
+      for (std::size_t i = 1; i < stops.size(); ++i) {
+        if (i == 1 || heights[i] != heights[i - 1] || heights[i] != heights[i - 2]) grid = judge.grown(clearance, heights[i - 1], heights[i]);
+        if (!grid || !connected(*grid, stops[i - 1], stops[i])) return false;
+      }
       return true;
     });
     if (joined) return std::max(*joined, least);
   }
   // No way, however narrow: what start and goal allow, each by itself.
   double clearance = 2.0 * length;
-  for (const glm::dvec2& stop : stops) {
+  for (std::size_t i = 0; i < stops.size(); ++i) {
     const auto free = largest(clearance, [&](double c) {
-      const auto grid = judge.grown(c);
-      return grid && connected(*grid, stop, stop);
+      const auto grid = judge.grown(c, heights[i], heights[i]);
+      return grid && connected(*grid, stops[i], stops[i]);
     });
     if (free) clearance = *free;  // one that lies in matter allows none, and none would bring the robot there
   }

@@ -6,7 +6,10 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
+#include "thicket/nav/altitude.hpp"
+#include "thicket/sim/travel.hpp"
 #include "thicket/worlds/truth.hpp"
 
 namespace thicket {
@@ -43,31 +46,34 @@ void warn_of_stealth(const Simulation& simulation, std::vector<std::string>& war
   const World& world = simulation.stage().scene.world();
   const Sensor& sensor = deciding_sensor(simulation);
   const Hull hull = mission.vehicle.hull();
-  const double ground = mission.start.z_m, plane = ground + sensor.spec().position_m.z;
+  const auto grounds = travel_heights(mission);
   const auto* radar = std::get_if<ScanningRadarSpec>(&deciding_spec(simulation));
   const bool looks_along_plane = scanner(deciding_spec(simulation)) && (!radar || radar->elevation_opening_deg == 0.0);
   std::map<std::string, std::vector<std::string>> undetected;  // material -> solids
-  std::vector<std::string> off_plane;
+  std::map<double, std::vector<std::string>> off_plane;         // height of the plane -> solids
   for (const Solid& solid : world.solids) {
     const Material& material = world.materials[solid.material];
-    const double meets_hull = half_width_between(solid, ground + hull.z_low, ground + hull.z_high);
-    // What only carries the hull, a floor, is not in its way.
-    if (!material.stops_motion || meets_hull <= 0.0 || extent(solid).high.z <= ground + hull.z_low) continue;
-    if (!sensor.detects(material)) {
-      undetected[material.name].push_back(solid.name);
-    } else if (looks_along_plane && meets_hull - half_width_between(solid, plane, plane) > 0.5 * mission.planner.clearance_m) {
-      off_plane.push_back(solid.name);
+    bool met = false;
+    std::optional<double> missed;  // the height of a plane that has not, or much less, of it
+    for (const double ground : grounds) {
+      const double meets_hull = half_width_between(solid, ground + hull.z_low, ground + hull.z_high), plane = ground + sensor.spec().position_m.z;
+      // What only carries the hull, a floor, is not in its way.
+      if (!material.stops_motion || meets_hull <= 0.0 || extent(solid).high.z <= ground + hull.z_low) continue;
+      met = true;
+      if (!missed && meets_hull - half_width_between(solid, plane, plane) > 0.5 * mission.planner.clearance_m) missed = plane;
     }
+    if (met && !sensor.detects(material)) undetected[material.name].push_back(solid.name);
+    else if (met && looks_along_plane && missed) off_plane[*missed].push_back(solid.name);
   }
   for (const auto& [material, solids] : undetected)
     warnings.push_back(fmt::format("{} of material '{}' stop motion but would not be detected by sensor '{}': {}",
                                    name_some(solids), material, sensor.spec().name,
                                    std::holds_alternative<LidarSpec>(deciding_spec(simulation)) ? "set the material's stops_light, or use a radar"
                                                                                                : "raise the material's reflectivity or lower the sensor's detection_floor_db"));
-  if (!off_plane.empty())
+  for (const auto& [plane, solids] : off_plane)
     warnings.push_back(fmt::format("{} reach into the hull's heights but not, or much less, into the plane of sensor '{}' at z = {:.2f} m: they would not be seen in time; change "
                                    "the sensor's position_m",
-                                   name_some(off_plane), sensor.spec().name, plane));
+                                   name_some(solids), sensor.spec().name, plane));
 }
 
 /// What the sensor that drives the bumpers cannot see in time, whatever it is made of.
@@ -113,17 +119,19 @@ std::vector<std::string> mission_warnings(const Simulation& simulation) {
   if (at_start <= 0.0) warnings.push_back("the hull touches matter at the start: the run will end at once, collided");
   if (at_start < mission.planner.clearance_m && at_start > 0.0)
     warnings.push_back(fmt::format("the start is {:.2f} m from matter, nearer than the clearance of {} m", at_start, mission.planner.clearance_m));
-  const auto warn_of_target = [&](const glm::dvec2& target, const std::string& what) {
-    const Clearance there = simulation.stage().scene.clearance(mission.vehicle.hull(), {target, mission.start.z_m}, mission.planner.clearance_m);
+  const auto warn_of_target = [&](const glm::dvec2& target, double z, const std::string& what) {
+    const Clearance there = simulation.stage().scene.clearance(mission.vehicle.hull(), {target, z}, mission.planner.clearance_m);
     if (there.distance <= 0.0)
       warnings.push_back(fmt::format("{} is where the hull would touch '{}': it cannot be reached", what, simulation.stage().scene.world().solids[there.solid].name));
     else if (there.distance < mission.planner.clearance_m)
       warnings.push_back(fmt::format("{} is {:.2f} m from '{}', nearer than the clearance of {} m: the planner may not get there", what, there.distance,
                                      simulation.stage().scene.world().solids[there.solid].name, mission.planner.clearance_m));
   };
-  if (planner_needs(mission.planner.name) == PlannerNeeds::goal && mission.planner.goal_m) warn_of_target(*mission.planner.goal_m, "the goal");
-  if (mission.planner.name == "waypoints")
-    for (std::size_t i = 0; i < mission.planner.waypoints_m.size(); ++i) warn_of_target(mission.planner.waypoints_m[i], fmt::format("way-point {}", i + 1));
+  if (planner_needs(mission.planner.name) == PlannerNeeds::goal && mission.planner.goal_m) warn_of_target(*mission.planner.goal_m, travel_heights(mission).front(), "the goal");
+  if (mission.planner.name == "waypoints") {
+    const auto altitudes = waypoint_altitudes(mission.planner, mission.start.z_m);
+    for (std::size_t i = 0; i < altitudes.size(); ++i) warn_of_target(mission.planner.waypoints_m[i], mission.vehicle.flies() ? altitudes[i] : mission.start.z_m, fmt::format("way-point {}", i + 1));
+  }
   return warnings;
 }
 

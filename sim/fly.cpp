@@ -17,9 +17,10 @@ constexpr double look_ahead = 0.5;
 /// Clearance is horizontal. What goes up or down is swept in pieces that rise by no more than this, m, with a hull as high as the piece and itself.
 constexpr double highest_piece = 0.005;
 
-/// The yaw rate that follows a commanded one within the limits, as a differential drive has it.
-double yaw_rate(double now, double wanted, double step, const VehicleSpec& limits) {
-  const double most = radians(limits.turn_rate_max_deg_s), change = radians(limits.turn_acceleration_deg_s2) * step;
+/// The yaw rate that follows a commanded one within the limits, as a differential drive has it. The rigid body is asked for the commanded one, and its controller keeps the acceleration within the limit: limited here too, by what
+/// the rate is now, the error that turns it would be as small as the step is short.
+double yaw_rate(double now, double wanted, double step, const VehicleSpec& limits, bool rigid_body) {
+  const double most = radians(limits.turn_rate_max_deg_s), change = rigid_body ? INFINITY : radians(limits.turn_acceleration_deg_s2) * step;
   return std::clamp(std::clamp(wanted, -most, most), now - change, now + change);
 }
 
@@ -88,7 +89,7 @@ void Simulation::fly_on() {
   }
   const FlightState before = vehicle_.flight();
   const Pose2 pose_before = vehicle_.pose;
-  FlightState after = fly(before, command, yaw_rate(vehicle_.turn_rate, command.turn_rate, mission.step_s, spec), vehicle_.unrest, spec, stage_->flight.rigid_body, mission.step_s);
+  FlightState after = fly(before, command, yaw_rate(vehicle_.turn_rate, command.turn_rate, mission.step_s, spec, stage_->flight.rigid_body), vehicle_.unrest, spec, stage_->flight.rigid_body, mission.step_s);
   FlightPath path = FlightPath::between(before, after, mission.step_s);
   const bool meets = after.position.z <= 0.0 && !(vehicle_.on_floor && after.velocity.z > 0.0);
   // What takes off is still pressed to the floor while its thrust grows.

@@ -87,6 +87,7 @@ Result<Simulation> Simulation::changed(const Mission& mission, Scene scene, cons
   if (as_many) {
     next.scans_ = scans_;
     next.scan_estimates_ = scan_estimates_;
+    next.scan_aloft_ = scan_aloft_;
   }
   next.manual_ = pose ? std::nullopt : manual_;
   const bool planner_stays = !pose && !verdict_ && as_many && is.step_s == was.step_s && same(planner_section(), was.planner, is.planner) && same(vehicle_section(), was.vehicle, is.vehicle) &&

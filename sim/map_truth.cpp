@@ -8,6 +8,7 @@
 
 #include "thicket/sim/map_score.hpp"
 #include "thicket/sim/simulation.hpp"
+#include "thicket/sim/travel.hpp"
 
 namespace thicket {
 namespace {
@@ -32,13 +33,14 @@ Role role_of(const Simulation& simulation, const Material& material) {
   return noticed ? Role::penetrable : Role::air;
 }
 
-/// The heights of the sensors, lowest and highest, as they are mounted on a vehicle that stands level.
+/// The heights of the sensors, lowest and highest, as they are mounted on a vehicle that is level and travels.
 std::pair<double, double> heights_of(const Mission& mission) {
+  const auto [lowest, highest] = travel_range(mission);
   double low = infinity, high = -infinity;
   for (const SensorSpec& sensor : mission.sensors) {
-    const double z = mission.start.z_m + mounted(sensor).position_m.z;
-    low = std::min(low, z);
-    high = std::max(high, z);
+    const double z = mounted(sensor).position_m.z;
+    low = std::min(low, lowest + z);
+    high = std::max(high, highest + z);
   }
   return {low, high};
 }

@@ -12,6 +12,7 @@
 #include "thicket/base/probability_file.hpp"
 #include "thicket/sim/probability_picture.hpp"
 #include "thicket/sim/sar.hpp"
+#include "thicket/sim/travel.hpp"
 #include "thicket/worlds/truth.hpp"
 
 namespace thicket {
@@ -52,8 +53,8 @@ struct MapFormat {
   Result<Done> (*write)(const std::filesystem::path& folder, const ProbabilityGrid& grid, const Simulation& simulation);
 };
 
-/// The first sensor's, above the world's zero, at the start, m.
-double sensor_height(const Mission& mission) { return mission.start.z_m + mounted(mission.sensors.front()).position_m.z; }
+/// The first sensor's, above the world's zero, where the vehicle travels (first), m.
+double sensor_height(const Mission& mission) { return travel_heights(mission).front() + mounted(mission.sensors.front()).position_m.z; }
 
 const std::vector<MapFormat>& further_formats() {
   using Path = std::filesystem::path;

@@ -13,6 +13,7 @@
 #include "canvas.hpp"
 #include "picture_view.hpp"
 #include "thicket/sim/outputs.hpp"
+#include "thicket/sim/travel.hpp"
 #include "thicket/worlds/free_space.hpp"
 
 namespace thicket {
@@ -88,7 +89,8 @@ Result<Done> draw_world(Canvas& canvas, const PictureFrame& view, const Simulati
   const World world = world_at(simulation.scene().world(), simulation.time());
   const double pixel = 1.0 / view.scale, keep = mission.vehicle.radius_m + mission.planner.clearance_m;
   const Hull hull = mission.vehicle.hull();
-  const double z_low = mission.start.z_m + hull.z_low, z_high = mission.start.z_m + hull.z_high;
+  const auto [lowest, highest] = travel_range(mission);
+  const double z_low = lowest + hull.z_low, z_high = highest + hull.z_high;
   const auto grid = distance_to_matter(world, view.low, view.high, 2.0 * pixel, keep + 3.0 * pixel, z_low, z_high);
   if (!grid) return grid.error();
   const bool any_passable = std::any_of(world.solids.begin(), world.solids.end(), [&](const Solid& solid) { return !world.materials[solid.material].stops_motion; });

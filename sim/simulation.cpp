@@ -105,6 +105,7 @@ Simulation::Simulation(std::shared_ptr<const Stage> stage, std::unique_ptr<Plann
       scans_(stage_->sensors.size()),
       scan_counts_(stage_->sensors.size()),
       scan_estimates_(stage_->sensors.size()),
+      scan_aloft_(stage_->sensors.size()),
       scene_(stage_->scene) {
   vehicle_.pose = start_pose(stage_->mission);
   vehicle_.z = stuck_z_ = stage_->mission.start.z_m;
@@ -132,6 +133,7 @@ Simulation::Simulation(const Simulation& other)
       scans_(other.scans_),
       scan_counts_(other.scan_counts_),
       scan_estimates_(other.scan_estimates_),
+      scan_aloft_(other.scan_aloft_),
       decision_(other.decision_),
       manual_(other.manual_),
       scene_(other.scene_),
@@ -191,10 +193,12 @@ void Simulation::sense() {
   if (due.empty()) return;
   measure(due);
   bool decides = false;
+  const bool flies = stage_->mission.vehicle.flies();
   for (const std::size_t i : due) {
     ++totals_.scans;
     totals_.rays += scans_[i].rays;
     scan_estimates_[i] = estimate();
+    if (flies) scan_aloft_[i] = {vehicle_.tilt(), vehicle_.z};
     decides = decides || i == stage_->bumper_sensors.front();
     if (stage_->mission.map.enabled) {
       const Stopwatch watch(times_.map);
@@ -224,11 +228,15 @@ void Simulation::decide() {
   const Stopwatch watch(times_.plan);
   const Pose2& now = estimate();
   contour_.clear();
+  const bool flies = stage_->mission.vehicle.flies();
+  Scan level;
   for (const std::size_t i : stage_->bumper_sensors) {
     // What was sensed a while ago is where it was, and the robot has moved since, as it believes.
     const bool fresh = scans_[i].time == time();
-    if (fresh) readers_[i].add(scans_[i], contour_);
-    else readers_[i].add(scans_[i], {now.to_inner(scan_estimates_[i].position), wrap_angle(scan_estimates_[i].yaw - now.yaw)}, contour_);
+    if (flies) make_level(scans_[i], scan_aloft_[i], level);
+    const Scan& scan = flies ? level : scans_[i];
+    if (fresh) readers_[i].add(scan, contour_);
+    else readers_[i].add(scan, {now.to_inner(scan_estimates_[i].position), wrap_angle(scan_estimates_[i].yaw - now.yaw)}, contour_);
   }
   bumpers_.read(contour_);
   if (manual_) return;

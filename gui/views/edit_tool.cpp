@@ -10,6 +10,7 @@
 
 #include "../core/editor_shapes.hpp"
 #include "thicket/base/pose.hpp"
+#include "thicket/sim/travel.hpp"
 #include "thicket/worlds/shape_fault.hpp"
 
 namespace thicket::gui {
@@ -77,7 +78,7 @@ void EditTool::use(const Frame& frame, const PlanCamera& camera, bool hovered, I
   if (!frame.now.simulation) return;
   Editor& editor = editing_->editor;
   editor.follow(frame.now);
-  ground_ = frame.now.simulation->mission().start.z_m;
+  ground_ = ground_height(frame.now.simulation->mission());
   time_ = frame.now.simulation->time();
   if (drag_ && drag_->solid >= editor.world().solids.size()) drag_.reset();
   if (!frame.still) {

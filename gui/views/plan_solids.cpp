@@ -8,6 +8,7 @@
 
 #include "plan.hpp"
 #include "thicket/sim/material_colour.hpp"
+#include "thicket/sim/travel.hpp"
 
 namespace thicket::gui {
 namespace {
@@ -109,8 +110,9 @@ void PlanSolids::make(const Snapshot& now) {
   entries_.clear();
   const World& world = now.simulation->stage().scene.world();
   const Mission& mission = now.simulation->mission();
-  double head = mission.start.z_m + mission.vehicle.hull().z_high;
-  for (const SensorSpec& sensor : mission.sensors) head = std::max(head, mission.start.z_m + mounted(sensor).position_m.z);
+  const double highest = travel_range(mission).second, ground = ground_height(mission);
+  double head = highest + mission.vehicle.hull().z_high;
+  for (const SensorSpec& sensor : mission.sensors) head = std::max(head, highest + mounted(sensor).position_m.z);
   std::map<MeshKey, std::shared_ptr<const Footprint>> before;
   before.swap(meshes_);
   rough_.clear();
@@ -118,7 +120,7 @@ void PlanSolids::make(const Snapshot& now) {
   for (std::uint32_t i = 0; i < world.solids.size(); ++i) {
     const Solid& solid = world.solids[i];
     const Bounds box = extent(solid);
-    if (is_slab(solid) || (!solid.motion && box.high.z <= mission.start.z_m + 1e-3)) continue;
+    if (is_slab(solid) || (!solid.motion && box.high.z <= ground + 1e-3)) continue;
     Entry entry;
     entry.solid = i;
     entry.top = box.high.z;

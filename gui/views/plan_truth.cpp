@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "plan.hpp"
+#include "thicket/sim/travel.hpp"
 
 namespace thicket::gui {
 namespace {
@@ -37,7 +38,7 @@ void TruthOutline::draw(const Frame& frame, const PlanCamera& camera, ImDrawList
     time_ = frame.now.simulation->time();
     PlanExtent all = extent_of(frame.now);
     const Mission& mission = frame.now.simulation->mission();
-    const double cell = mission.map.resolution_m, height = mission.start.z_m + mounted(mission.sensors.front()).position_m.z;
+    const double cell = mission.map.resolution_m, height = travel_heights(mission).front() + mounted(mission.sensors.front()).position_m.z;
     // Cells of the map itself; of a very large world, coarser ones.
     double step = cell;
     while ((all.high.x - all.low.x) * (all.high.y - all.low.y) > 4e6 * step * step) step *= 2.0;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -125,16 +127,60 @@ void hover() {
     }
 }
 
+/// The largest distance between two ways at equal times, a tenth of a second apart; the shorter one stays at its end.
+double apart_in_motion(const Flown& run, double step, const Flown& other, double other_step) {
+  const auto at = [](const Flown& flown, double time, double length) {
+    const auto i = static_cast<std::size_t>(std::lround(time / length));
+    return i < flown.way.size() ? flown.way[i] : flown.end;
+  };
+  double most = 0.0;
+  for (double time = 0.0; time < std::max(run.time, other.time); time += 0.1) most = std::max(most, glm::distance(at(run, time, step), at(other, time, other_step)));
+  return most;
+}
+
 void steps() {
-  fmt::print("\n## One flight (way-points) with different steps\n\n| model | step | verdict | ends at | from the end at 1 ms |\n|---|---|---|---|---|\n");
+  fmt::print("\n## One flight (way-points) with different steps\n\n| model | step | verdict | time | from the end at 1 ms | from the flight at 1 ms at equal times, at most |\n|---|---|---|---|---|---|\n");
   for (const char* model : {"kinematic", "rigid_body"}) {
-    glm::dvec3 first{0.0};
+    Flown first;
     for (const char* step : {"0.001", "0.002", "0.005", "0.01", "0.02", "0.05"}) {
       const Flown run = flown("quadrotor/waypoints", {{"vehicle.model", model, "study"}, {"map.enabled", "false", "study"}, {"step_s", step, "study"}});
-      if (step == std::string("0.001")) first = run.end;
-      fmt::print("| {} | {} s | {} | ({:.3f}, {:.3f}, {:.3f}) | {:.4f} m |\n", model, step, run.verdict, run.end.x, run.end.y, run.end.z, glm::distance(run.end, first));
+      if (step == std::string("0.001")) first = run;
+      const double length = std::stod(step);
+      fmt::print("| {} | {:g} ms | {} | {:.2f} s | {:.4f} m | {:.4f} m |\n", model, 1e3 * length, run.verdict, run.time, glm::distance(run.end, first.end), apart_in_motion(run, length, first, 1e-3));
     }
   }
+}
+
+/// How far a point is from a line of straight legs.
+double off_the_legs(const glm::dvec3& point, const std::vector<glm::dvec3>& corners) {
+  double nearest = INFINITY;
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    const glm::dvec3 leg = corners[i] - corners[i - 1];
+    const double share = std::clamp(glm::dot(point - corners[i - 1], leg) / glm::dot(leg, leg), 0.0, 1.0);
+    nearest = std::min(nearest, glm::distance(point, corners[i - 1] + share * leg));
+  }
+  return nearest;
+}
+
+void path_error() {
+  fmt::print("\n## Off the straight legs (way-points)\n\n| model | air and hand | verdict | at most | root of the mean square |\n|---|---|---|---|---|\n");
+  const std::vector<glm::dvec3> corners = {{-4.0, 0.0, 0.0}, {-4.0, 0.0, 3.0}, {2.5, 0.0, 3.0}, {2.5, -3.0, 1.0}, {-3.0, -3.0, 1.0}, {-3.0, 0.0, 1.5}, {-3.0, 0.0, 0.0}};
+  const std::vector<std::pair<const char*, std::vector<Override>>> airs = {
+      {"still", {}}, {"wind of 3 m/s", {{"vehicle.wind_m_s", "[3.0, 0.0, 0.0]", "study"}}}, {"gusts of 1 m/s", {{"vehicle.gust_m_s", "1.0", "study"}}}, {"jitter of 0.1 m/s", {{"vehicle.jitter_m_s", "0.1", "study"}}}};
+  for (const char* model : {"kinematic", "rigid_body"})
+    for (const auto& [air, keys] : airs) {
+      std::vector<Override> changes = keys;
+      changes.push_back({"vehicle.model", model, "study"});
+      changes.push_back({"map.enabled", "false", "study"});
+      const Flown run = flown("quadrotor/waypoints", changes);
+      double most = 0.0, squares = 0.0;
+      for (const glm::dvec3& here : run.way) {
+        const double off = off_the_legs(here, corners);
+        most = std::max(most, off);
+        squares += off * off;
+      }
+      fmt::print("| {} | {} | {} | {:.3f} m | {:.3f} m |\n", model, air, run.verdict, most, std::sqrt(squares / static_cast<double>(run.way.size())));
+    }
 }
 
 }  // namespace
@@ -146,5 +192,6 @@ int main() {
   step_response();
   hover();
   models();
+  path_error();
   steps();
 }

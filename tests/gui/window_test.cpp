@@ -128,6 +128,36 @@ TEST_CASE("keys: those that are held, and the stick, are one command within the 
   ImGui::DestroyContext();
 }
 
+TEST_CASE("keys: R, F, Q and E fly up, down and sideways, within the limits, and do nothing to a robot that drives") {
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  struct Held {
+    int key;
+    double climb, lateral;
+  };
+  for (const Held& held : {Held{GLFW_KEY_R, 0.45, 0.0}, Held{GLFW_KEY_F, -0.45, 0.0}, Held{GLFW_KEY_Q, 0.0, 1.0}, Held{GLFW_KEY_E, 0.0, -1.0}}) {
+    CAPTURE(held.key);
+    io.KeysDown[held.key] = true;
+    const Command flies = hand_command({}, 1.0, 2.0, {}, 0.45), drives = hand_command({}, 1.0, 2.0);
+    CHECK(flies.climb == doctest::Approx(held.climb));
+    CHECK(flies.lateral == doctest::Approx(held.lateral));
+    CHECK(flies.speed == 0.0);
+    CHECK(flies.turn_rate == 0.0);
+    CHECK_FALSE(flies.altitude);
+    CHECK(drives.climb == 0.0);
+    CHECK(drives.lateral == 0.0);
+    io.KeysDown[held.key] = false;
+  }
+  // Both at once are neither; with Ctrl they are other keys' deeds.
+  io.KeysDown[GLFW_KEY_R] = io.KeysDown[GLFW_KEY_F] = io.KeysDown[GLFW_KEY_Q] = true;
+  CHECK(hand_command({}, 1.0, 2.0, {}, 0.45).climb == 0.0);
+  io.KeyCtrl = true;
+  CHECK(hand_command({}, 1.0, 2.0, {}, 0.45).lateral == 0.0);
+  CHECK(deed_of({GLFW_KEY_R}, false) == std::nullopt);
+  for (const Deed deed : {Deed::fly_up, Deed::fly_down, Deed::fly_left, Deed::fly_right}) CHECK(std::string(key_of(deed)).size() == 1);  // the F1 table lists them
+  ImGui::DestroyContext();
+}
+
 TEST_CASE("mouse: clicks that fall between two frames are two clicks, where the mouse was then") {
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();

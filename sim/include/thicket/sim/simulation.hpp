@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "thicket/base/result.hpp"
+#include "thicket/nav/aloft.hpp"
 #include "thicket/nav/bumper.hpp"
 #include "thicket/nav/occupancy_map.hpp"
 #include "thicket/nav/planner.hpp"
@@ -135,6 +136,7 @@ class Simulation {
   std::vector<Scan> scans_;
   std::vector<std::uint64_t> scan_counts_;
   std::vector<Pose2> scan_estimates_;       ///< where the robot believed to be at each sensor's last scan
+  std::vector<Aloft> scan_aloft_;           ///< of a vehicle that flies: how it was then
   Decision decision_;
   std::optional<Command> manual_;
   Scene scene_;
