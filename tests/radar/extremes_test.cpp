@@ -36,7 +36,7 @@ const std::vector<Choices> of_both = {
     {"slab_max_m", {"0", "0.1", "1e300"}},
     {"excess_range", {"true", "false"}},
     {"statistical_foliage", {"true", "false"}},
-    {"bounces_max", {"1", "2", "3", "16"}},
+    {"bounces_max", {"1", "2", "3", "16", "64"}},
     {"radial_velocity", {"true", "false"}},
     {"sampling", {"'regular'", "'jitter'"}},
     {"echoes", {"'traced'", "'receiver'"}},

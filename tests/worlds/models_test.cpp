@@ -25,11 +25,11 @@ ObjFile read_back(const Model& model) {
   return *file;
 }
 
-struct Box {
+struct Reach {
   glm::dvec3 low{infinity}, high{-infinity};
 };
-Box box_of(const ObjFile& file) {
-  Box box;
+Reach box_of(const ObjFile& file) {
+  Reach box;
   for (const MeshPiece& piece : file.pieces) {
     box.low = glm::min(box.low, piece.mesh->low);
     box.high = glm::max(box.high, piece.mesh->high);
@@ -84,7 +84,7 @@ TEST_CASE("every part of a model is closed and faces outward, and the loader fin
 TEST_CASE("models stand on z = 0 and are as large as they say") {
   const auto check = [](const char* name, const glm::dvec3& size, double low) {
     CAPTURE(std::string(name));
-    const Box box = box_of(read_back(*make_model(name)));
+    const Reach box = box_of(read_back(*make_model(name)));
     CHECK(box.low.z == doctest::Approx(low).epsilon(1e-9));
     for (int axis = 0; axis < 3; ++axis) CHECK(box.high[axis] - box.low[axis] == doctest::Approx(size[axis]).epsilon(0.03));
   };
