@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -76,7 +77,32 @@ inline bool outside_plane(const glm::dvec3& origin, const glm::dvec3& a, const g
   return height <= 1e-18L * size;
 }
 
+/// Whether the plane of a triangle is less exact than its longest edge: the one is off by rounding over the height, the other by the height.
+inline bool needle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& normal) {
+  const double longest = std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
+  return glm::dot(normal, normal) < 1e-16 * longest * longest;
+}
+
+/// The depth at which a ray passes the longest edge, as it looks along the ray.
+inline double by_longest_edge(const Corner& p, const Corner& q, const Corner& r) {
+  const auto square = [](const Corner& from, const Corner& to) { return (to.x - from.x) * (to.x - from.x) + (to.y - from.y) * (to.y - from.y); };
+  const Corner* from = &p;
+  const Corner* to = &q;
+  if (square(q, r) > square(*from, *to)) from = &q, to = &r;
+  if (square(r, p) > square(*from, *to)) from = &r, to = &p;
+  const double length = square(*from, *to), ahead = -(from->x * (to->x - from->x) + from->y * (to->y - from->y));
+  if (!(ahead > 0.0)) return from->z;
+  return ahead < length ? from->z + ahead / length * (to->z - from->z) : to->z;
+}
+
 }  // namespace triangle_rays_detail
+
+/// The unit normal of a triangle; zero if it has no area. However small the triangle, its squares do not vanish.
+inline glm::dvec3 unit_normal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const glm::dvec3 normal = glm::cross(b - a, c - a);
+  const double size = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
+  return size >= std::numeric_limits<double>::min() ? glm::normalize(normal / size) : glm::dvec3(0.0);
+}
 
 /// Whether a ray meets a triangle a, b, c (counter-clockwise from outside) at a range >= 0.
 inline bool meet(const ShearedRay& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, TriangleHit& hit) {
@@ -92,7 +118,7 @@ inline bool meet(const ShearedRay& ray, const glm::dvec3& a, const glm::dvec3& b
   const double slope = glm::dot(normal, ray.direction);
   const auto [nearest, farthest] = std::minmax({p.z, q.z, r.z});
   const double along = ray.direction[ray.z];
-  const double by_plane = slope != 0.0 ? glm::dot(normal, a - ray.origin) / slope * along : nearest;
+  const double by_plane = slope != 0.0 && !needle(a, b, c, normal) ? glm::dot(normal, a - ray.origin) / slope * along : by_longest_edge(p, q, r);
   const double depth = std::clamp(by_plane, nearest, farthest);
   hit.range = depth / along;
   const double doubtful = 1e-9 * std::max({std::abs(p.z), std::abs(q.z), std::abs(r.z)});
