@@ -44,8 +44,8 @@ TEST_CASE("extremes: time: a million updates of one cell leave it at its clamp, 
       for (int i = 1000; i < updates; ++i) map.integrate(hit, pose);
       CHECK(map.view({3, 0}).probability == matter);
       CHECK(map.view({1, 0}).probability == open);
+      if (evidence == std::string("views")) continue;  // one look, however often
       CHECK(map.cells_updated() == static_cast<std::uint64_t>(updates) * 4);  // three cells of the way, and that of the echo
-      if (evidence == std::string("views")) continue;                         // one look, however often
       // At the clamps, to the nearest of the cells' units; and ever so often hit, 10 looks through it change its mind.
       CHECK(std::abs(std::log(matter / (1.0 - matter)) - std::log(0.971 / 0.029)) <= 0.5 / (bits == 8 ? 32.0 : 4096.0) + 1e-12);
       CHECK(std::abs(std::log(open / (1.0 - open)) - std::log(0.1192 / 0.8808)) <= 0.5 / (bits == 8 ? 32.0 : 4096.0) + 1e-12);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 
 #include "octomap_tree.hpp"
 #include "printable.hpp"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 #include "map_header.hpp"
 #include "probability_parts.hpp"
