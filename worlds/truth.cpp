@@ -158,7 +158,7 @@ Result<TruthGrid> empty_grid(const glm::dvec2& low, const glm::dvec2& high, doub
   // In extended precision first: there may be more columns and rows than a double can count.
   using Long = long double;
   const Long wide = (Long(high.x) - Long(low.x)) / Long(resolution), tall = (Long(high.y) - Long(low.y)) / Long(resolution);
-  if (std::max(wide, tall) > 1e100L) return Error{fmt::format("the grid would be {:.3g} x {:.3g} cells, expected at most {:.0f} in all: take a larger resolution or smaller bounds", wide, tall, max_truth_cells)};
+  if (std::max(wide, tall) > 1e100L) return Error{fmt::format("the grid would be more than 1e100 cells long or wide, expected at most {:.0f} in all: take a larger resolution or smaller bounds", max_truth_cells)};
   // A last cell of no more than a rounding error is none.
   const double columns = std::max(1.0, std::ceil((high.x - low.x) / resolution - touch)), rows = std::max(1.0, std::ceil((high.y - low.y) / resolution - touch));
   if (!(columns * rows <= max_truth_cells))
