@@ -164,7 +164,8 @@ double Antenna::half_width(double elevation) const {
 double Antenna::gain_within(double azimuth, double elevation) const {
   if (gain_ == Gain::flat) return 1.0;
   if (gain_ == Gain::gaussian) {
-    const glm::dvec2 off = glm::dvec2(azimuth, elevation) / half_power_;
+    // So far off that nothing is left, in either direction: however narrow the lobe, the squares are numbers.
+    const glm::dvec2 off = glm::min(glm::abs(glm::dvec2(azimuth, elevation) / half_power_), 1e3);
     return std::exp(-std::numbers::ln2 * (off.x * off.x + off.y * off.y));
   }
   // (By the tangent: near the axis the cosine alone would lose half the digits of the angle.)

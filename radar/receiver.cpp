@@ -170,7 +170,7 @@ bool Receiver::deposit(std::span<const Return> returns, Scratch& scratch) const 
   /// How many bins from the start of `added` on; negative for what does not count.
   const auto place_of = [=](double range) {
     const double place = (range - first_range) / bin_size + margin;
-    return range >= range_min && range <= range_max && place < end ? place : -1.0;
+    return std::isgreaterequal(range, range_min) && std::islessequal(range, range_max) && std::isless(place, end) ? place : -1.0;  // a range that is no number is left out, quietly
   };
   std::uint32_t any_velocity = 0;
   if (sum_ != Sum::fields) {

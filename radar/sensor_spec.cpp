@@ -49,7 +49,7 @@ void add_radar_keys(SectionOf<S>& section) {
       .key("slab_max_m", &S::slab_max_m, "m", at_least(0.0), "a solid in the open that is no thicker is one slab with inner reflections (ITU-R P.2040-3), and one echo; 0: none is")
       .key("excess_range", &S::excess_range, "the wave is slower in dielectrics, so that what lies behind seems farther")
       .key("statistical_foliage", &S::statistical_foliage, "materials with leaves_per_m are leaves at random places, others in each scan, instead of even matter")
-      .key("bounces_max", &S::bounces_max, "", between(1.0, 16.0), "surfaces that a wave may meet on its way out; 1 is no multipath")
+      .key("bounces_max", &S::bounces_max, "", between(1.0, 64.0), "surfaces that a wave may meet on its way out; 1 is no multipath")
       .key("radial_velocity", &S::radial_velocity, "echoes tell how fast their range changes (Doppler)")
       .choice("sampling", &S::sampling, {"regular", "jitter"}, "rays at the middles of their cells, or at random places in them, others in each scan");
 }

@@ -18,7 +18,7 @@ double share(std::size_t part, std::size_t of) { return ratio(static_cast<double
 /// With nothing claimed, or nothing to be found, there is no harmonic mean, but the map is as wrong as can be; with neither there is nothing to judge.
 double harmonic_mean(double precision, double recall) {
   if (std::isnan(precision) && std::isnan(recall)) return nothing;
-  return precision > 0.0 && recall > 0.0 ? 2.0 * precision * recall / (precision + recall) : 0.0;
+  return std::isgreater(precision, 0.0) && std::isgreater(recall, 0.0) ? 2.0 * precision * recall / (precision + recall) : 0.0;
 }
 
 enum Kind : std::uint8_t { free_cell, surface, deep, penetrable };
@@ -109,7 +109,7 @@ void forgive(std::vector<std::uint8_t>& claimed, const std::vector<std::uint8_t>
 void judge_edges(const std::vector<float>& cells, const std::vector<std::uint8_t>& kinds, const TruthGrid& grid, MapScore& score) {
   std::vector<std::uint8_t> claimed(cells.size()), surfaces(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    claimed[i] = cells[i] > 0.5f;  // (not for NaN)
+    claimed[i] = std::isgreater(cells[i], 0.5f);  // (not for NaN)
     surfaces[i] = kinds[i] == surface && !std::isnan(cells[i]);
   }
   // Cells at exactly the tolerance are within it, whatever 0.2 / 0.1 is in binary.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +12,7 @@
 
 namespace thicket {
 
-inline double to_db(double amplitude) { return 20.0 * std::log10(amplitude); }
+inline double to_db(double amplitude) { return amplitude > 0.0 ? 20.0 * std::log10(amplitude) : -std::numeric_limits<double>::infinity(); }
 
 const char* to_string(Edge edge);
 const char* to_string(BeamEnd end);

@@ -10,6 +10,7 @@
 
 #include "thicket/base/probability_file.hpp"
 #include "thicket/sim/auto_clearance.hpp"
+#include "scan_clock.hpp"
 #include "vehicle_limits.hpp"
 
 namespace thicket {
@@ -184,10 +185,7 @@ bool Simulation::step() {
 void Simulation::sense() {
   std::vector<std::size_t> due;
   for (std::size_t i = 0; i < stage_->sensors.size(); ++i) {
-    const double rate = stage_->sensors[i]->spec().rate_hz;
-    if (time() < static_cast<double>(scan_counts_[i]) / rate - 1e-9) continue;
-    // A rate above the step's gives one scan a step; the count keeps up with the time, so that the rate is right on average.
-    scan_counts_[i] = std::max(scan_counts_[i] + 1, static_cast<std::uint64_t>(std::floor((time() + 1e-9) * rate)) + 1);
+    if (!scan_due(time(), stage_->sensors[i]->spec().rate_hz, scan_counts_[i])) continue;
     due.push_back(i);
   }
   if (due.empty()) return;

@@ -36,7 +36,7 @@ std::optional<Error> fault_of(const PictureView& view) {
   if (view.width < 1 || view.height < 1 || view.width > largest_picture_side || view.height > largest_picture_side)
     return Error{fmt::format("the picture has {} x {} pixels, expected 1 to {} each", view.width, view.height, largest_picture_side)};
   for (const auto& point : {view.from, view.at})
-    if (point && !(glm::length(*point) <= 1e10)) return Error{"the camera, or what it looks at, is farther than 1e10 m, expected finite metres"};
+    if (point && !std::islessequal(glm::length(*point), 1e10)) return Error{"the camera, or what it looks at, is farther than 1e10 m, expected finite metres"};
   if (view.from && view.at && *view.from == *view.at) return Error{"the camera is at the point that it looks at, expected two different points"};
   return std::nullopt;
 }

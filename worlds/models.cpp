@@ -68,7 +68,7 @@ std::optional<std::string> hold_fault(const HoldSpec& s) {
   const std::pair<const char*, double> sizes[] = {{"length", s.length}, {"breadth", s.breadth}, {"depth", s.depth}, {"plate", s.plate}, {"frame spacing", s.frame_spacing}, {"frame depth", s.frame_depth},
                                                   {"flange width", s.flange_width}, {"stiffener spacing", s.stiffener_spacing}, {"stiffener depth", s.stiffener_depth}, {"deck width", s.deck_width}};
   for (const auto& [name, metres] : sizes)
-    if (!(metres > 0.0) || !std::isfinite(metres)) return fmt::format("the hold's {} is {} m, expected a finite number greater than 0", name, metres);
+    if (!std::isfinite(metres) || metres <= 0.0) return fmt::format("the hold's {} is {} m, expected a finite number greater than 0", name, metres);
   if (s.plate < 1e-3) return fmt::format("the hold's plate is {} m, expected at least 0.001 (the file is written to a tenth of a millimetre)", s.plate);
   if (2.0 * (s.frame_depth + s.plate) >= s.breadth) return fmt::format("frames of {} m meet in a hold of {} m breadth, expected less than half of it", s.frame_depth, s.breadth);
   if (2.0 * s.stiffener_depth >= std::min(s.breadth, s.length)) return fmt::format("stiffeners of {} m meet in a hold of {} x {} m, expected less than half of it", s.stiffener_depth, s.length, s.breadth);

@@ -288,7 +288,7 @@ std::optional<std::string_view> bad_dissolve(std::string_view line) {
   if (what != "d" && what != "Tr") return std::nullopt;
   const std::string_view word = words.next();
   const auto number = number_of<double>(word);
-  if (number && *number >= 0.0 && *number <= 1.0 && word.size() <= max_number_length) return std::nullopt;
+  if (number && std::isgreaterequal(*number, 0.0) && std::islessequal(*number, 1.0) && word.size() <= max_number_length) return std::nullopt;
   return word;
 }
 

@@ -68,7 +68,7 @@ class SceneBuilder {
     impl_.fixed.scene = new_scene(impl_.device.get());
     attach(impl_.fixed, impl_.device.get(), impl_.fixed.scene.get());
     attach(impl_.instances, impl_.device.get(), impl_.fixed.scene.get());
-    rtcCommitScene(impl_.fixed.scene.get());
+    commit(impl_.fixed.scene.get());
     if (impl_.instances.empty()) return;
     impl_.contact = new_scene(impl_.device.get());
     attach(impl_.fixed, impl_.device.get(), impl_.contact.get());
@@ -211,7 +211,7 @@ void Scene::set_time(double time) {
     moving_->scene = new_scene(impl_->device.get());
     attach(moving_->instances, impl_->device.get(), moving_->scene.get());
   }
-  rtcCommitScene(moving_->scene.get());
+  commit(moving_->scene.get());
 }
 
 }  // namespace thicket

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 
 #include "part_rays.hpp"
+#include "thicket/base/float_traps.hpp"
 
 namespace thicket {
 namespace {
@@ -100,7 +101,7 @@ void triangle_callback(const RTCIntersectFunctionNArguments* arguments) {
     } else if (hit.range <= lane.range_max) {
       // The way through a sheet: thickness / cos(incidence), but no longer than the triangle is.
       const double scale = instance.placing.scale;
-      const double cosine = std::abs(glm::dot(glm::normalize(glm::cross(b - a, c - a)), inner.direction)) * scale;
+      const double cosine = std::abs(glm::dot(unit_normal(a, b, c), inner.direction)) * scale;
       const double longest = scale * std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
       const double way = cosine * longest > instance.sheet_thickness ? instance.sheet_thickness / cosine : longest;
       limit = query.meet(lane_index, PartCrossing{{hit.range, hit.range + way, 0, 0}, instance.solid, triangle_kind, arguments->primID, arguments->primID, &instance});
@@ -145,6 +146,12 @@ EmbreeScene new_scene(RTCDevice device) {
   return scene;
 }
 
+void commit(RTCScene scene) {
+  // Embree sorts boxes with lanes that hold infinities and nothing: invalid operations whose results it masks.
+  const NoFloatTraps guard;
+  rtcCommitScene(scene);
+}
+
 void attach(const Prototype& prototype, RTCDevice device, RTCScene scene) {
   attach_parts<SpherePart>(device, scene, prototype);
   attach_parts<CylinderPart>(device, scene, prototype);
@@ -155,7 +162,7 @@ void attach(const Prototype& prototype, RTCDevice device, RTCScene scene) {
 void build(Prototype& prototype, RTCDevice device) {
   prototype.scene = new_scene(device);
   attach(prototype, device, prototype.scene.get());
-  rtcCommitScene(prototype.scene.get());
+  commit(prototype.scene.get());
 }
 
 void attach(const std::vector<Instance>& instances, RTCDevice device, RTCScene scene) {
@@ -214,7 +221,7 @@ void commit_with_boxes(const std::vector<Instance>& instances, double slack, RTC
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(scene, geometry, instance_kind);
   rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene);
+  commit(scene);
 }
 
 void update(const std::vector<Instance>& instances, RTCScene scene) {

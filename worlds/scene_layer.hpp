@@ -116,5 +116,7 @@ void commit_with_boxes(const std::vector<Instance>& instances, double slack, RTC
 void update(const std::vector<Instance>& instances, RTCScene scene);
 
 EmbreeScene new_scene(RTCDevice device);
+/// Builds what was attached.
+void commit(RTCScene scene);
 
 }  // namespace thicket

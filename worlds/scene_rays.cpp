@@ -15,7 +15,7 @@ namespace thicket {
 namespace {
 
 /// Of length 1 to 1e-6, which its square is to 2e-6.
-bool traceable(const Ray& ray) { return finite(ray.origin) && std::abs(glm::dot(ray.direction, ray.direction) - 1.0) <= 2e-6 && ray.range_max >= 0.0; }  // NaN fails
+bool traceable(const Ray& ray) { return finite(ray.origin) && std::islessequal(std::abs(glm::dot(ray.direction, ray.direction) - 1.0), 2e-6) && std::isgreaterequal(ray.range_max, 0.0); }  // NaN fails, quietly
 
 }  // namespace
 
@@ -26,10 +26,12 @@ glm::dvec3 Scene::Impl::normal(const LaneRay& lane, const PartCrossing& c, doubl
   const Placing& placing = c.instance->placing;
   if (c.kind == triangle_kind) {
     const auto [a, b, d] = prototype.corners(part);
-    const glm::dvec3 outward = placing.turn * glm::normalize(glm::cross(b - a, d - a));
+    const glm::dvec3 outward = placing.turn * unit_normal(a, b, d);
+    const bool along = glm::dot(outward, lane.direction) > 0.0, leaves = range > c.interval.enter;
+    // A triangle without area, which only closes a gap between others, has no side: as if it were met squarely.
+    if (outward == glm::dvec3(0.0)) return leaves ? lane.direction : -lane.direction;
     // A sheet has no outside: its normals are against the ray where it is entered, and along it where it is left.
     if (prototype.closed()) return outward;
-    const bool along = glm::dot(outward, lane.direction) > 0.0, leaves = range > c.interval.enter;
     return along == leaves ? outward : -outward;
   }
   return placing.turn * prototype.with_part(c.kind, part, [&](const auto& p) { return part_normal(p, placing.to_inner(point), face); });

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -76,7 +77,35 @@ inline bool outside_plane(const glm::dvec3& origin, const glm::dvec3& a, const g
   return height <= 1e-18L * size;
 }
 
+/// Whether a triangle is so thin that rounding turns its plane: by more than 1e-8.
+inline bool needle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& normal) {
+  const double longest = std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
+  return glm::dot(normal, normal) < 1e-16 * longest * longest;
+}
+
+/// The depth of a needle where a ray passes it: how far along its longest edge, and then how far from there to its third corner, as it looks along the ray. What rounding makes of the second counts for no more than the
+/// needle is wide.
+inline double depth_of_needle(const Corner& p, const Corner& q, const Corner& r) {
+  const auto square = [](const Corner& a, const Corner& b) { return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y); };
+  const Corner *from = &p, *to = &q, *third = &r;
+  if (square(q, r) > square(*from, *to)) from = &q, to = &r, third = &p;
+  if (square(r, p) > square(*from, *to)) from = &r, to = &p, third = &q;
+  const double x = to->x - from->x, y = to->y - from->y, z = to->z - from->z, length = x * x + y * y;
+  if (!(length > 0.0)) return std::min({p.z, q.z, r.z});
+  const auto edge_depth = [&](double px, double py) { return from->z + std::clamp((px * x + py * y) / length, 0.0, 1.0) * z; };
+  const double off = y * from->x - x * from->y, third_off = x * (third->y - from->y) - y * (third->x - from->x);
+  const double share = third_off != 0.0 ? std::clamp(off / third_off, 0.0, 1.0) : 0.0;
+  return edge_depth(-from->x, -from->y) + share * (third->z - edge_depth(third->x - from->x, third->y - from->y));
+}
+
 }  // namespace triangle_rays_detail
+
+/// The unit normal of a triangle; zero if it has no area. However small the triangle, its squares do not vanish.
+inline glm::dvec3 unit_normal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const glm::dvec3 normal = glm::cross(b - a, c - a);
+  const double size = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
+  return size >= std::numeric_limits<double>::min() ? glm::normalize(normal / size) : glm::dvec3(0.0);
+}
 
 /// Whether a ray meets a triangle a, b, c (counter-clockwise from outside) at a range >= 0.
 inline bool meet(const ShearedRay& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, TriangleHit& hit) {
@@ -92,7 +121,7 @@ inline bool meet(const ShearedRay& ray, const glm::dvec3& a, const glm::dvec3& b
   const double slope = glm::dot(normal, ray.direction);
   const auto [nearest, farthest] = std::minmax({p.z, q.z, r.z});
   const double along = ray.direction[ray.z];
-  const double by_plane = slope != 0.0 ? glm::dot(normal, a - ray.origin) / slope * along : nearest;
+  const double by_plane = slope != 0.0 && !needle(a, b, c, normal) ? glm::dot(normal, a - ray.origin) / slope * along : depth_of_needle(p, q, r);
   const double depth = std::clamp(by_plane, nearest, farthest);
   hit.range = depth / along;
   const double doubtful = 1e-9 * std::max({std::abs(p.z), std::abs(q.z), std::abs(r.z)});

@@ -149,12 +149,16 @@ class Raster {
 };
 
 Result<TruthGrid> empty_grid(const glm::dvec2& low, const glm::dvec2& high, double resolution, double z_low, double z_high) {
-  if (!(resolution > 0.0) || !std::isfinite(resolution)) return Error{fmt::format("the resolution is {} m, expected a finite number greater than 0", resolution)};
+  if (!std::isfinite(resolution) || resolution <= 0.0) return Error{fmt::format("the resolution is {} m, expected a finite number greater than 0", resolution)};
   const bool finite = std::isfinite(low.x) && std::isfinite(low.y) && std::isfinite(high.x) && std::isfinite(high.y);
   if (!finite || !(low.x < high.x && low.y < high.y))
     return Error{fmt::format("the bounds are {}, {} to {}, {} m, expected finite numbers, the first smaller than the second", low.x, low.y, high.x, high.y)};
   if (!std::isfinite(z_low) || !std::isfinite(z_high) || z_low > z_high)
     return Error{fmt::format("the heights are {} to {} m, expected finite numbers, the first not greater than the second", z_low, z_high)};
+  // In extended precision first: there may be more columns and rows than a double can count.
+  using Long = long double;
+  const Long wide = (Long(high.x) - Long(low.x)) / Long(resolution), tall = (Long(high.y) - Long(low.y)) / Long(resolution);
+  if (std::max(wide, tall) > 1e100L) return Error{fmt::format("the grid would be more than 1e100 cells long or wide, expected at most {:.0f} in all: take a larger resolution or smaller bounds", max_truth_cells)};
   // A last cell of no more than a rounding error is none.
   const double columns = std::max(1.0, std::ceil((high.x - low.x) / resolution - touch)), rows = std::max(1.0, std::ceil((high.y - low.y) / resolution - touch));
   if (!(columns * rows <= max_truth_cells))
@@ -201,7 +205,7 @@ Result<TruthGrid> occupancy(const World& world, const glm::dvec2& low, const glm
 }
 
 Result<TruthGrid> grown_obstacles(const World& world, const glm::dvec2& low, const glm::dvec2& high, double resolution, double grow, double z_low, double z_high) {
-  if (!(grow >= 0.0) || !std::isfinite(grow)) return Error{fmt::format("obstacles are to grow by {} m, expected a finite number, 0 or more", grow)};
+  if (!std::isfinite(grow) || grow < 0.0) return Error{fmt::format("obstacles are to grow by {} m, expected a finite number, 0 or more", grow)};
   auto grid = empty_grid(low, high, resolution, z_low, z_high);
   if (!grid || grow == 0.0) return grid;
   Raster raster(*grid);

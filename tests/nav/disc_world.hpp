@@ -56,8 +56,8 @@ struct LetterMap {
     const glm::dvec2 at = from / cell;
     int x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
     const int step_x = along.x > 0.0 ? 1 : -1, step_y = along.y > 0.0 ? 1 : -1;
-    const double delta_x = std::abs(1.0 / along.x), delta_y = std::abs(1.0 / along.y);
     constexpr double never = std::numeric_limits<double>::infinity();
+    const double delta_x = along.x == 0.0 ? never : std::abs(1.0 / along.x), delta_y = along.y == 0.0 ? never : std::abs(1.0 / along.y);
     double next_x = along.x == 0.0 ? never : (along.x > 0.0 ? x + 1 - at.x : at.x - x) * delta_x, next_y = along.y == 0.0 ? never : (along.y > 0.0 ? y + 1 - at.y : at.y - y) * delta_y;
     const double end = std::min(limit / cell, glm::distance(at, 0.5 * glm::dvec2(width(), height())) + width() + height());
     for (;;) {

@@ -36,7 +36,7 @@ const std::vector<Choices> of_both = {
     {"slab_max_m", {"0", "0.1", "1e300"}},
     {"excess_range", {"true", "false"}},
     {"statistical_foliage", {"true", "false"}},
-    {"bounces_max", {"1", "2", "3", "16"}},
+    {"bounces_max", {"1", "2", "3", "16", "64"}},
     {"radial_velocity", {"true", "false"}},
     {"sampling", {"'regular'", "'jitter'"}},
     {"echoes", {"'traced'", "'receiver'"}},
@@ -226,5 +226,135 @@ TEST_CASE("an antenna whose gain is nothing along all its rays receives nothing"
         for (const float amplitude : scan.profiles.amplitude) CHECK(amplitude == 0.0f);
       }
     }
+  }
+}
+
+TEST_CASE("extremes: sensors: a lobe of 1 ray has the wall at its range, one of 10^6 has its power to 0.05 dB of the closed form") {
+  // A rough plate that is small against the lobe, seen squarely: 4 A cos^2 = 4 A.
+  HandMadeWorld w;
+  const auto rough = rough_metal(w);
+  w.add(Box{{1.0, 1.0, 1.0}}, {8.5, 0.0, 0.0}, 0.0, rough);
+  const Scene scene = traced(w);
+  const Scan one = measured(bare_lobe(65.0, 1), scene);
+  CHECK(one.rays == 1);
+  const auto profile = one.profiles.amplitude_of(0);
+  const auto top = static_cast<std::uint32_t>(std::ranges::max_element(profile) - profile.begin());
+  CHECK(profile[top] > 0.0f);
+  CHECK(std::abs(one.profiles.range(top) - 8.0) <= 0.05);
+  const LobeRadarSpec fine = bare_lobe(65.0, 1000);
+  const Scan many = measured(fine, scene);
+  CHECK(many.rays == 1000000);
+  CHECK(fault_of(many, fine) == "");
+  CHECK(std::abs(10.0 * std::log10(received_power(many) / power_of(4.0, 8.0, fine))) < 0.05);
+}
+
+TEST_CASE("extremes: sensors: ranges of 1 mm and of 10 km are met to 1e-9 of themselves") {
+  for (const double range_max : {0.001, 10000.0}) {
+    CAPTURE(range_max);
+    HandMadeWorld w;
+    const auto rough = rough_metal(w);
+    w.add(Box{{0.1 * range_max, 4.0 * range_max, 4.0 * range_max}}, {0.85 * range_max, 0.0, 0.0}, 0.0, rough);
+    const Scene scene = traced(w);
+    ScanningRadarSpec spec = one_beam_radar();
+    spec.range_min_m = 0.0;
+    spec.range_max_m = range_max;
+    const OneBeam one = looked(spec, scene);
+    REQUIRE(one.echoes.size() >= 1);
+    CHECK(std::abs(one.echoes[0].range - 0.8 * range_max) <= 1e-9 * range_max);
+    CHECK(std::isfinite(one.echoes[0].amplitude));
+    CHECK(one.echoes[0].amplitude > 0.0f);
+  }
+}
+
+TEST_CASE("extremes: sensors: in 1 bin is all the power, in 10^5 bins the echo is in its own") {
+  HandMadeWorld w;
+  const auto rough = rough_metal(w);
+  w.add(Box{{1.0, 40.0, 40.0}}, {8.5, 0.0, 0.0}, 0.0, rough);
+  const Scene scene = traced(w);
+  LobeRadarSpec spec = bare_lobe(1.0, 3);
+  const double all = received_power(spec, scene);
+  spec.bin_count = 1;
+  spec.bin_size_m = 100.0;
+  spec.bin_offset_m = 8.0;
+  CHECK(received_power(spec, scene) == doctest::Approx(all).epsilon(0.01));
+  spec.bin_count = 100000;
+  spec.bin_size_m = 0.0001;
+  spec.bin_offset_m = 0.0;
+  const Scan scan = measured(spec, scene);
+  CHECK(fault_of(scan, spec) == "");
+  const auto profile = scan.profiles.amplitude_of(0);
+  REQUIRE(profile.size() == 100000);
+  CHECK(received_power(scan) == doctest::Approx(all).epsilon(0.01));
+  for (std::uint32_t bin = 0; bin < profile.size(); ++bin)
+    if (profile[bin] > 0.0f) CHECK((scan.profiles.range(bin) > 7.9998 && scan.profiles.range(bin) < 8.0015));  // 8 m, and 8 m over the cosine of 1.0 / 2 x sqrt(2) degrees at most
+}
+
+TEST_CASE("extremes: sensors: noise of 0 is none, noise of 10^6 has its deviation to 2 %, and a threshold of 0 is refused") {
+  const Scene scene = traced(World{});
+  LobeRadarSpec spec = bare_lobe(65.0, 3);
+  for (const float amplitude : measured(spec, scene).profiles.amplitude) CHECK(amplitude == 0.0f);
+  spec.noise = 1e6;
+  spec.bin_count = 100000;
+  spec.bin_size_m = 0.0001;
+  const Scan loud = measured(spec, scene);
+  CHECK(fault_of(loud, spec) == "");
+  double squares = 0.0;
+  for (const float amplitude : loud.profiles.amplitude) squares += static_cast<double>(amplitude) * static_cast<double>(amplitude);
+  CHECK(std::sqrt(squares / 1e5) == doctest::Approx(1e6).epsilon(0.02));
+  Faults faults;
+  const auto entry = parse_document("type = 'lobe_radar'\nthreshold = 0", "f");
+  REQUIRE(entry);
+  read_sensor(*entry, faults);
+  REQUIRE_FALSE(faults.none());
+  CHECK(faults.error().message.find("f:2:13: 'threshold' is 0, expected") == 0);
+}
+
+TEST_CASE("extremes: sensors: with a penetration budget of 0 the first face is all, with an infinite one all faces are there") {
+  HandMadeWorld w;
+  const auto leaves = w.material("leaves", 0.05, 0.01);
+  for (int i = 0; i < 50; ++i) w.add(Box{{0.2, 20.0, 20.0}}, {1.0 + i, 0.0, 0.0}, 0.0, leaves);
+  const Scene scene = traced(w);
+  ScanningRadarSpec spec = one_beam_radar();
+  spec.penetration_budget_db = 0.0;
+  const OneBeam none = looked(spec, scene);
+  REQUIRE(none.echoes.size() == 1);
+  CHECK(none.echoes[0].range == doctest::Approx(0.9));
+  CHECK(none.beam.end == BeamEnd::exhausted);
+  spec.penetration_budget_db = infinity;
+  const OneBeam all = looked(spec, scene);
+  CHECK(all.echoes.size() == 100);
+  CHECK(all.beam.end == BeamEnd::open);
+}
+
+TEST_CASE("extremes: sensors: between two mirrors a wave comes back after 64 bounces, from the range that its image has, to 1e-6 m") {
+  // A beam goes up a corridor of mirrors 1 m wide, at 45 degrees: each bounce takes it a metre on, sqrt(2) m of way. The last surface is a rough wall across its way at x = 63.
+  HandMadeWorld w;
+  const auto glass = mirror(w), rough = rough_metal(w);
+  w.add(Box{{200.0, 1.0, 200.0}}, {0.0, 1.0, 0.0}, 0.0, glass);   // from y = 0.5
+  w.add(Box{{200.0, 1.0, 200.0}}, {0.0, -1.0, 0.0}, 0.0, glass);  // to y = -0.5
+  w.add(Box{{1.0, 1.0, 4.0}}, {63.5, 0.0, 0.0}, 0.0, rough);
+  const Scene scene = traced(w);
+  ScanningRadarSpec spec = one_beam_radar();
+  spec.scattering = "material";
+  spec.fov_deg = 0.5;
+  spec.step_deg = 1.0;
+  spec.yaw_deg = 45.0;
+  spec.range_max_m = 200.0;
+  for (const int most : {63, 64}) {
+    spec.bounces_max = most;
+    const OneBeam one = looked(spec, scene);
+    std::size_t of_64 = 0;
+    double worst = 0.0;
+    for (const Echo& echo : one.echoes) {
+      CHECK(std::isfinite(echo.amplitude));
+      CHECK(echo.bounces <= most);
+      if (echo.bounces != 64) continue;
+      ++of_64;
+      // Its image stands 63 m off in x; the beam that goes there at 45 degrees is 63 sqrt(2) long, and comes back the same way or straight.
+      const double there = 63.0 * std::sqrt(2.0);
+      worst = std::max(worst, std::min(std::abs(echo.range - there), std::abs(echo.range - 0.5 * (there + 63.0))));
+    }
+    CHECK((of_64 > 0) == (most == 64));
+    CHECK(worst <= 1e-6);
   }
 }

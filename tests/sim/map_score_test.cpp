@@ -219,7 +219,7 @@ TEST_CASE("scores are those of brute force") {
         bool beside = false;
         for (int b = -1; b <= 1; ++b)
           for (int a = -1; a <= 1; ++a) beside = beside || !blocked(x + a, y + b);
-        if (map.probability[map.index(x, y)] > 0.5f) claimed.push_back({x, y});
+        if (std::isgreater(map.probability[map.index(x, y)], 0.5f)) claimed.push_back({x, y});
         if (blocked(x, y) && beside && map.known(map.index(x, y))) surface.push_back({x, y});
       }
     double sum = 0.0;

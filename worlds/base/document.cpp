@@ -8,6 +8,7 @@
 #include <toml++/toml.h>
 
 #include "thicket/base/files.hpp"
+#include "thicket/base/float_traps.hpp"
 
 namespace thicket {
 namespace {
@@ -93,6 +94,7 @@ std::optional<Place> too_deep(std::string_view text, const std::string& name) {
 
 Result<Node> parse_document(std::string_view text, const std::string& name) {
   if (const auto place = too_deep(text, name)) return Error{fmt::format("{}: a key of more than {} parts joined by dots, expected fewer", to_string(*place), deepest_key)};
+  const NoFloatTraps guard;  // 1e400 becomes infinity in the library, by an overflow: the keys judge it
   try {
     return convert(toml::parse(text, std::string_view(name)), name);
   } catch (const toml::parse_error& fault) {

@@ -113,7 +113,7 @@ class MovingAiReader {
 }  // namespace
 
 Result<GridMap> read_movingai_map(const fs::path& file, double cell_size) {
-  if (!(cell_size >= least_cell_m && cell_size <= largest_cell_m))
+  if (!std::isgreaterequal(cell_size, least_cell_m) || !std::islessequal(cell_size, largest_cell_m))
     return Error{fmt::format("{}: the cell size is {} m, expected {} to {}", file.string(), cell_size, least_cell_m, largest_cell_m)};
   const auto content = read_text_file(file);
   if (!content) return content.error();

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 
 #include "octomap_tree.hpp"
 #include "printable.hpp"
@@ -66,7 +67,7 @@ Result<TreeHeader> read_header(const fs::path& file, std::string_view content) {
       has_size = true;
     } else if (word == "res") {
       const auto resolution = number_of<double>(value);
-      if (!resolution || !(*resolution >= least_cell_m && *resolution <= largest_cell_m)) return fault(fmt::format("res is '{}', expected metres a cell, from {} to {}", printable(value), least_cell_m, largest_cell_m));
+      if (!resolution || !std::isgreaterequal(*resolution, least_cell_m) || !std::islessequal(*resolution, largest_cell_m)) return fault(fmt::format("res is '{}', expected metres a cell, from {} to {}", printable(value), least_cell_m, largest_cell_m));
       header.resolution = *resolution;
     } else {
       return fault(fmt::format("'{}', expected id, size, res or data", printable(text)));
@@ -79,7 +80,7 @@ double low_of(int key, double resolution) { return (key - octree_middle) * resol
 /// The key of the layer that holds a height, or nothing if no tree reaches there.
 std::optional<int> layer_at(double height, double resolution) {
   const double key = std::floor(height / resolution + border) + octree_middle;
-  if (!(key >= 0.0 && key < 2.0 * octree_middle)) return std::nullopt;
+  if (!std::isgreaterequal(key, 0.0) || !std::isless(key, 2.0 * octree_middle)) return std::nullopt;
   return static_cast<int>(key);
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "probability_parts.hpp"
@@ -142,7 +144,8 @@ class TreeDecoder {
     const unsigned children = static_cast<std::uint8_t>(bytes[4]);
     if (std::isnan(log_odds)) return void(fault_ = fmt::format("node {} is not a number, expected log-odds", nodes_));
     if (children == 0) {
-      node.probability = inside(1.0 / (1.0 + std::exp(-static_cast<double>(log_odds))));
+      // (Not farther than exp reaches: at 700 it is as sure as can be.)
+      node.probability = inside(1.0 / (1.0 + std::exp(std::min(-static_cast<double>(log_odds), 700.0))));
       return visit_(node);
     }
     if (node.edge == 1) return too_deep();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 #include "map_header.hpp"
 #include "probability_parts.hpp"
@@ -120,8 +121,8 @@ GridMap judged(const ProbabilityGrid& grid) {
   GridMap map{grid.width, grid.height, grid.resolution, grid.origin, 0.0, {}};
   map.cells.reserve(grid.probability.size());
   for (std::size_t i = 0; i < grid.probability.size(); ++i) {
-    const auto p = static_cast<double>(grid.probability[i]);  // every comparison with NaN is false
-    map.cells.push_back(p > saved_occupied_thresh ? CellState::occupied : p < saved_free_thresh && !grid.sensed_through(i) ? CellState::free : CellState::unknown);
+    const auto p = static_cast<double>(grid.probability[i]);  // every (quiet) comparison with NaN is false
+    map.cells.push_back(std::isgreater(p, saved_occupied_thresh) ? CellState::occupied : std::isless(p, saved_free_thresh) && !grid.sensed_through(i) ? CellState::free : CellState::unknown);
   }
   return map;
 }

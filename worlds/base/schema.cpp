@@ -57,7 +57,8 @@ std::optional<double> read_number(const Node& node, const Key& key, Faults& faul
     return std::nullopt;
   }
   const bool finite_enough = std::isfinite(number) || (key.range.infinite && std::isinf(number));
-  const bool in_range = (key.range.above_minimum ? number > key.range.minimum : number >= key.range.minimum) && number <= key.range.maximum;
+  // (The quiet comparisons: of NaN they are false, and no invalid operation.)
+  const bool in_range = (key.range.above_minimum ? std::isgreater(number, key.range.minimum) : std::isgreaterequal(number, key.range.minimum)) && std::islessequal(number, key.range.maximum);
   if (!finite_enough || !in_range) {
     faults.add(node.place, fmt::format("'{}' is {}, expected {}{}", key.name, number, expectation(key),
                                        finite_enough || std::isnan(number) ? "" : ", finite"));
