@@ -8,6 +8,7 @@
 
 #include "bare_loops.hpp"
 #include "bench_worlds.hpp"
+#include "bumpy_sphere.hpp"
 #include "thicket/base/map_file.hpp"
 #include "thicket/worlds/generators.hpp"
 

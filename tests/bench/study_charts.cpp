@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "bench_worlds.hpp"
+#include "bumpy_sphere.hpp"
 #include "map_work.hpp"
 #include "thicket/nav/occupancy_map.hpp"
 
