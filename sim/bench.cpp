@@ -33,11 +33,13 @@ bool is_rate(const std::string& unit) { return unit.starts_with("s simulated per
 bool is_memory(const std::string& unit) { return unit.starts_with("bytes") || unit == "MB"; }
 std::string group_of(const std::string& name) { return name.substr(0, name.rfind('/')); }
 
-/// What it takes: less is better.
-std::vector<double> costs(const Measured& measured) {
+/// What it takes, of missions against the plain loop beside it: less is better.
+std::vector<double> costs(const Measured& measured, bool against_loop) {
   std::vector<double> list = measured.values;
-  if (is_rate(measured.unit))
-    for (double& value : list) value = 1.0 / value;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (is_rate(measured.unit)) list[i] = 1.0 / list[i];
+    if (against_loop) list[i] /= measured.beside[i];
+  }
   return list;
 }
 
@@ -54,22 +56,22 @@ const Measured* find(const BenchReport& report, const std::string& name, const s
   return at == report.list.end() ? nullptr : &*at;
 }
 
-/// What a thing is held against, if both reports have it: a foreign peer of its group with the same unit, else the plain loop.
+/// The peer that a kernel is held against, if both reports have it.
 struct Yardstick {
   const Measured* before = nullptr;
   const Measured* now = nullptr;
 };
 Yardstick yardstick_of(const Measured& what, const BenchReport& before, const BenchReport& now) {
-  if (is_memory(what.unit) || what.name == machine_loop) return {};
-  const auto pair = [&](const Measured& m) { return Yardstick{find(before, m.name, m.unit), &m}; };
-  if (!what.foreign)
-    for (const Measured& m : now.list)
-      if (m.foreign && m.unit == what.unit && group_of(m.name) == group_of(what.name))
-        if (const Yardstick y = pair(m); y.before) return y;
-  for (const Measured& m : now.list)
-    if (m.name == machine_loop)
-      if (const Yardstick y = pair(m); y.before) return y;
-  return {};
+  if (is_memory(what.unit) || what.foreign) return {};
+  Yardstick any;
+  for (const Measured& m : now.list) {
+    if (!m.foreign || is_memory(m.unit) || m.name == machine_loop) continue;
+    const Measured* old = find(before, m.name, m.unit);
+    if (!old) continue;
+    if (m.unit == what.unit && group_of(m.name) == group_of(what.name)) return {old, &m};
+    if (!any.now) any = {old, &m};
+  }
+  return any;
 }
 
 /// Draws with replacement, each draw a function of its numbers alone.
@@ -91,11 +93,14 @@ class Draws {
   std::vector<double> drawn_;
 };
 
-void set_interval(BenchChange& change, const Measured& before, const Measured& now, const Yardstick& yardstick) {
+void set_interval(BenchChange& change, const Measured& before, const Measured& now, const BenchReport& all_before, const BenchReport& all_now) {
   constexpr std::uint64_t draws = 4000;
-  const std::vector<double> a = costs(before), b = costs(now);
-  const std::vector<double> by_a = yardstick.before ? costs(*yardstick.before) : std::vector<double>{1.0}, by_b = yardstick.now ? costs(*yardstick.now) : std::vector<double>{1.0};
-  change.related = change.cost * median_of(by_a) / median_of(by_b);
+  const bool against_loop = !before.beside.empty() && !now.beside.empty();
+  const Yardstick yardstick = against_loop ? Yardstick{} : yardstick_of(now, all_before, all_now);
+  change.yardstick = against_loop ? machine_loop : yardstick.now ? yardstick.now->name : "";
+  const std::vector<double> a = costs(before, against_loop), b = costs(now, against_loop);
+  const std::vector<double> by_a = yardstick.before ? costs(*yardstick.before, false) : std::vector<double>{1.0}, by_b = yardstick.now ? costs(*yardstick.now, false) : std::vector<double>{1.0};
+  change.related = median_of(b) / median_of(a) * median_of(by_a) / median_of(by_b);
   Draws random;
   std::vector<double> ratios;
   for (std::uint64_t i = 0; i < draws; ++i) ratios.push_back(random.median(b, i, 0) / random.median(a, i, 1) * random.median(by_a, i, 2) / random.median(by_b, i, 3));
@@ -107,6 +112,7 @@ void set_interval(BenchChange& change, const Measured& before, const Measured& n
 std::string verdict_of(const BenchChange& change, const Measured& before, const Measured& now) {
   const bool memory = is_memory(now.unit);
   if (std::min(before.values.size(), now.values.size()) < 5 || !std::isfinite(change.low) || !std::isfinite(change.high)) return "too few";
+  if (std::abs(change.related - 1.0) < 0.01) return "same";
   if (change.high < 1.0) return memory ? "less" : "faster";
   if (change.low > 1.0) return memory ? "more" : "slower";
   return "same";
@@ -124,7 +130,10 @@ std::string bench_json(const BenchReport& report) {
   json["short"] = report.brief;
   json["machine"] = {{"processor", report.processor}, {"threads", report.threads}, {"load_before", report.load_before}, {"load_after", report.load_after}};
   json["measurements"] = Json::array();
-  for (const Measured& m : report.list) json["measurements"].push_back({{"name", m.name}, {"unit", m.unit}, {"foreign", m.foreign}, {"values", m.values}});
+  for (const Measured& m : report.list) {
+    json["measurements"].push_back({{"name", m.name}, {"unit", m.unit}, {"foreign", m.foreign}, {"values", m.values}});
+    if (!m.beside.empty()) json["measurements"].back()["plain_loop_ns_per_step"] = m.beside;
+  }
   return json.dump(1) + "\n";
 }
 
@@ -145,7 +154,9 @@ Result<BenchReport> read_bench(const std::filesystem::path& file) {
     report.load_before = machine.at("load_before");
     report.load_after = machine.at("load_after");
     for (const Json& m : json->at("measurements")) {
-      report.list.push_back({m.at("name"), m.at("unit"), m.at("foreign"), m.at("values")});
+      report.list.push_back({m.at("name"), m.at("unit"), m.at("foreign"), m.at("values"), m.value("plain_loop_ns_per_step", std::vector<double>{})});
+      const Measured& read = report.list.back();
+      if (!read.beside.empty() && read.beside.size() != read.values.size()) return Error{fmt::format("{}: '{}' has {} values and {} of the plain loop beside them, expected as many", file.string(), read.name, read.values.size(), read.beside.size())};
       for (const double value : report.list.back().values)
         if (!(value > 0.0)) return Error{fmt::format("{}: '{}' has the value {}, expected numbers above 0", file.string(), report.list.back().name, value)};
     }
@@ -171,7 +182,7 @@ Result<std::vector<Measured>> read_google_benchmark(const std::filesystem::path&
       for (const auto& [key, value] : run.items()) {
         if (own.contains(key) || !value.is_number()) continue;
         auto at = std::find_if(list.begin(), list.end(), [&](const Measured& m) { return m.name == name && m.unit == key; });
-        if (at == list.end()) at = list.insert(list.end(), {name, key, false, {}});
+        if (at == list.end()) at = list.insert(list.end(), {name, key, false, {}, {}});
         at->values.push_back(value);
       }
     }
@@ -189,10 +200,8 @@ Result<std::vector<BenchChange>> compare_benches(const BenchReport& before, cons
     BenchChange change{m.name, m.unit, nothing, m.median(), nothing, "", nothing, nothing, nothing, "only now"};
     if (const Measured* old = find(before, m.name, m.unit); old && !old->values.empty() && !m.values.empty()) {
       change.before = old->median();
-      change.cost = median_of(costs(m)) / median_of(costs(*old));
-      const Yardstick yardstick = yardstick_of(m, before, now);
-      if (yardstick.now) change.yardstick = yardstick.now->name;
-      set_interval(change, *old, m, yardstick);
+      change.cost = median_of(costs(m, false)) / median_of(costs(*old, false));
+      set_interval(change, *old, m, before, now);
       change.verdict = verdict_of(change, *old, m);
     }
     changes.push_back(std::move(change));

@@ -105,7 +105,7 @@ Result<std::vector<Measured>> measure_kernels(const std::vector<BenchEntry>& ent
   for (const BenchEntry& entry : entries) {
     const auto count = list.size();
     for (const Measured& m : *read)
-      if (m.name == entry.name) list.push_back({m.name, m.unit, entry.foreign, m.values});
+      if (m.name == entry.name) list.push_back({m.name, m.unit, entry.foreign, m.values, {}});
     if (entry.kernel && list.size() == count) return Error{fmt::format("{} did not measure '{}': it was built from other sources; build it again", program->string(), entry.name)};
   }
   return list;
@@ -182,7 +182,7 @@ int print_changes(const BenchReport& before, const BenchReport& now) {
   std::size_t judged = 0, differ = 0;
   for (const BenchChange& c : *changes) {
     judged += std::isfinite(c.low) && c.verdict != "too few";
-    differ += c.verdict == "faster" || c.verdict == "slower";
+    differ += c.verdict == "faster" || c.verdict == "slower" || c.verdict == "less" || c.verdict == "more";
   }
   fmt::print("{} of {} differ; one of twenty would by chance, and more where other programs came and went between the repetitions.\n", differ, judged);
   return done;

@@ -204,7 +204,7 @@ void add_bench(CLI::App& app, BenchArguments& a) {
   app.add_flag("--quiet", a.quiet, "no progress");
   app.footer("A name is kind/what/.../peer: those that differ only in the peer are one group, and are related to its first. Kernels are measured by tests/bench/bench of the\n"
              "same build (`cmake --build --preset release --target bench`), missions and memory by this program. To compare, costs are held against what has nothing of\n"
-             "Thicket in it (bare Embree, a plain grid, else a plain loop), so that a machine that is busier as a whole makes nothing slower; intervals are a bootstrap over the\n"
+             "Thicket in it (bare Embree, a plain grid; of missions a plain loop beside each), so that a busier machine makes nothing slower; intervals are a bootstrap over the\n"
              "repetitions. docs/performance.md explains the figures. Exit codes: 0 measured, 2 bad usage or file.");
 }
 

@@ -28,7 +28,7 @@ BenchReport report_of(double slow, double thicket, double mission, double bytes)
   report.list = {{machine_loop, "ns per step", true, about(5.0 * slow, 0.01)},
                  {"closest/boxes/Embree triangles", "ns per ray", true, about(100.0 * slow, 0.01)},
                  {"closest/boxes/Thicket", "ns per ray", false, about(thicket * slow, 0.01)},
-                 {"whole mission/bug2/as shipped", "s simulated per CPU s", false, about(mission / slow, 0.01)},
+                 {"whole mission/bug2/as shipped", "s simulated per CPU s", false, about(mission / slow, 0.01), std::vector<double>(7, 5.0 * slow)},
                  {"memory/bug2/map", "bytes per known cell", false, std::vector<double>(7, bytes)}};
   return report;
 }
@@ -65,7 +65,10 @@ TEST_CASE("two reports of bench: faster, slower and the same, whatever the machi
   CHECK(memory.yardstick.empty());
   CHECK(memory.related == 1.5);
   CHECK(memory.verdict == "more");
-  // The other way round, and the machine itself.
+  // The yardsticks have none: they say what the machine did.
+  CHECK(change_of(*changes, machine_loop).verdict == "slower");
+  CHECK(change_of(*changes, machine_loop).yardstick.empty());
+  // The other way round.
   const auto back = compare_benches(report_of(2.0, 64.0, 500.0, 3.0), report_of(1.0, 80.0, 500.0, 2.0));
   REQUIRE(back);
   CHECK(change_of(*back, "closest/boxes/Thicket").verdict == "slower");
@@ -76,10 +79,26 @@ TEST_CASE("two reports of bench: faster, slower and the same, whatever the machi
   CHECK(change_of(*again, "closest/boxes/Thicket").low == rays.low);
 }
 
+TEST_CASE("a mission is held against the plain loop beside each of its repetitions, not against that of another moment") {
+  // Twice as slow a machine during four of seven repetitions: medians alone would not tell.
+  BenchReport before = report_of(1.0, 80.0, 500.0, 2.0), now = before;
+  for (const std::size_t i : {0, 2, 3, 5}) {
+    now.list[3].values[i] /= 2.0;
+    now.list[3].beside[i] *= 2.0;
+  }
+  const auto changes = compare_benches(before, now);
+  REQUIRE(changes);
+  const BenchChange& mission = change_of(*changes, "whole mission/bug2/as shipped");
+  CHECK(mission.cost > 1.9);
+  CHECK(mission.related == doctest::Approx(1.0));
+  CHECK(mission.verdict == "same");
+}
+
 TEST_CASE("bench says nothing of few repetitions, of noise, and of what only one report has") {
   BenchReport before = report_of(1.0, 80.0, 500.0, 2.0), now = report_of(1.0, 82.0, 500.0, 2.0);
   for (BenchReport* report : {&before, &now}) report->list[2].values = about(report == &before ? 80.0 : 82.0, 0.3);
   now.list[3].values.resize(4);
+  now.list[3].beside.resize(4);
   now.list[4].name = "memory/bug2/another";
   const auto changes = compare_benches(before, now);
   REQUIRE(changes);
@@ -115,6 +134,9 @@ TEST_CASE("a report of bench survives its file, and other files are told apart")
   auto zero = nlohmann::json::parse(bench_json(report));
   zero["measurements"][0]["values"][3] = 0.0;
   CHECK(has(message_of(zero.dump()), "'machine/plain loop' has the value 0"));
+  auto short_of_loops = nlohmann::json::parse(bench_json(report));
+  short_of_loops["measurements"][3]["plain_loop_ns_per_step"] = {5.0};
+  CHECK(has(message_of(short_of_loops.dump()), "7 values and 1 of the plain loop"));
 }
 
 TEST_CASE("what Google Benchmark wrote: every repetition, by its counter, without medians") {

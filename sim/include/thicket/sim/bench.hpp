@@ -16,6 +16,7 @@ struct Measured {
   std::string unit;            ///< "ns per ray"; of "s simulated per CPU s" more is better, of all others less
   bool foreign = false;        ///< a peer that has nothing of Thicket in it: what the machine gave at that time
   std::vector<double> values;  ///< one a repetition
+  std::vector<double> beside = {};  ///< of missions: what the plain loop took just before and after each of them, ns a step
   double median() const;       ///< NaN of none
 };
 
@@ -40,13 +41,14 @@ struct BenchChange {
   std::string name, unit;
   double before = 0.0, now = 0.0;            ///< medians; NaN: not measured
   double cost = 0.0;                         ///< now over before
-  std::string yardstick;                     ///< what had to do the same work both times, and by whose change `related` is divided; empty: none (bytes)
+  std::string yardstick;                     ///< what had to do the same work both times, and by whose change `related` is divided; empty: none
   double related = 0.0, low = 0.0, high = 0.0;  ///< now over before against the yardstick, and its interval of 95 %
   std::string verdict;                       ///< faster, slower, less, more, same; "too few" repetitions (< 5); "only before", "only now"
 };
 
-/// The interval is that of a bootstrap over the repetitions (Efron 1979: 4000 draws of both reports' medians, percentiles 2.5 and 97.5), of the costs against a yardstick: the foreign peer of the same group, else the plain loop
-/// `machine_loop`, so that a machine that was slower as a whole makes nothing slower. Two calls give the same numbers. Error: one of the two is a short version and the other is not.
+/// The interval is that of a bootstrap over the repetitions (Efron 1979: 4000 draws of the medians, percentiles 2.5 and 97.5). Costs are held against a yardstick, so that a machine that was slower as a whole makes nothing slower:
+/// a mission's repetition against the plain loop beside it; a kernel against the foreign peer of its group, else the first foreign one of all. Faster or slower is what has an interval without 1 and differs by 1 % at least: less
+/// comes of where the linker puts a function. Two calls give the same numbers. Error: one of the two is a short version and the other is not.
 Result<std::vector<BenchChange>> compare_benches(const BenchReport& before, const BenchReport& now);
 
 /// A loop of arithmetic and memory that no change of Thicket concerns.
