@@ -111,7 +111,7 @@ void study_phases(const Options& o) {
   double all_wall = 0.0;
   for (const std::string& name : shipped_missions()) {
     fmt::print(stderr, "{}\n", name);
-    Simulation s = or_exit(Simulation::create(or_exit(read_mission(find_shipped(name)))));
+    Simulation s = or_exit(Simulation::create(or_exit(read_mission(find_shipped(name), {}))));
     const double begin = wall_now();
     while (s.step() && s.time() < o.longest_s) {
     }
