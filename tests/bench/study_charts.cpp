@@ -1,6 +1,7 @@
 // The charts of docs/performance.md: what each of them varies.
 #include "study_charts.hpp"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
