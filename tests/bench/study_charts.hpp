@@ -15,7 +15,8 @@ struct Case {
   double items = 1.0;      ///< of a call: the cost is that of one item
   bool wall_time = false;  ///< else CPU time of all threads
   std::vector<double> values = {};  ///< s an item, one a round
-  double median() const;
+  /// The median; of wall time the least, for others only add to it.
+  double cost() const;
 };
 
 /// A chart over one thing that costs, both axes in decades.
