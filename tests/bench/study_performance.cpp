@@ -28,7 +28,7 @@ struct Options {
   fs::path page = "docs/performance.md", into = "docs/performance";
   int rounds = 7;
   double least_s = 0.03;    ///< of a measurement
-  double longest_s = 60.0;  ///< of a mission, simulated
+  double longest_s = 20.0;  ///< of a mission, simulated
   std::vector<std::string> parts;
 };
 
@@ -114,22 +114,31 @@ void study_phases(const Options& o) {
   double all_wall = 0.0;
   for (const std::string& name : shipped_missions()) {
     fmt::print(stderr, "{}\n", name);
-    Simulation s = or_exit(Simulation::create(or_exit(read_mission(find_shipped(name), {}))));
-    const double begin = wall_now();
-    while (s.step() && s.time() < o.longest_s) {
+    const Simulation start = or_exit(Simulation::create(or_exit(read_mission(find_shipped(name), {}))));
+    // The repetition that others disturbed least.
+    double wall = infinity, cpu = infinity, simulated = 0.0;
+    PhaseTimes t;
+    for (int repetition = 0; repetition < 3; ++repetition) {
+      Simulation s = start;
+      const double begin = wall_now(), cpu_begin = cpu_now();
+      while (s.step() && s.time() < o.longest_s) {
+      }
+      cpu = std::min(cpu, cpu_now() - cpu_begin);
+      if (wall_now() - begin >= wall) continue;
+      wall = wall_now() - begin;
+      t = s.phase_times();
+      simulated = s.time();
     }
-    const double wall = wall_now() - begin;
-    const PhaseTimes& t = s.phase_times();
     const auto percent_of = [&](double part) { return fixed(100.0 * part / wall, 0); };
-    rows.push_back({name, fixed(s.time(), 1), fixed(s.time() / wall, s.time() / wall < 10.0 ? 1 : 0), percent_of(t.trace), percent_of(t.map), percent_of(t.plan), percent_of(t.contact),
+    rows.push_back({name, fixed(simulated, 1), fixed(simulated / cpu, simulated / cpu < 10.0 ? 1 : 0), percent_of(t.trace), percent_of(t.map), percent_of(t.plan), percent_of(t.contact),
                     percent_of(wall - t.trace - t.map - t.plan - t.contact)});
     // Each mission counts alike, however long it takes.
     all.trace += t.trace / wall, all.map += t.map / wall, all.plan += t.plan / wall, all.contact += t.contact / wall, all_wall += 1.0;
   }
   const auto mean = [&](double part) { return fixed(100.0 * part / all_wall, 0); };
   rows.push_back({"*mean of all*", "", "", mean(all.trace), mean(all.map), mean(all.plan), mean(all.contact), mean(all_wall - all.trace - all.map - all.plan - all.contact)});
-  const std::string text = fmt::format("Percent of the wall time, one thread, at most {:g} simulated seconds; load {:.1f} before and {:.1f} after.\n\n{}", o.longest_s, before, load(),
-                                       markdown({"mission", "simulated, s", "× real time", "trace", "map", "plan", "contact", "rest"}, rows));
+  const std::string text = fmt::format("Percent of the wall time of the quickest of three runs, one thread, at most {:g} simulated seconds; load {:.1f} before and {:.1f} after.\n\n{}", o.longest_s, before, load(),
+                                       markdown({"mission", "simulated, s", "simulated s per CPU s", "trace", "map", "plan", "contact", "rest"}, rows));
   const std::string page = or_exit(read_text_file(o.page));
   or_exit(write_file(o.page, or_exit(with_part(page, "phases", text))));
 }
