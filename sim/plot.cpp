@@ -26,7 +26,7 @@ void draw(Canvas& canvas, const Plot& plot, Box box, double right) {
     };
   };
   const Frame frame{within_axes(box, right), limits_of(plot.x, 0.0, each(true)), limits_of(plot.y, 0.06, each(false))};
-  const double numbers = draw_grid(canvas, frame, plot.x.tick, true);
+  const double numbers = draw_grid(canvas, frame, plot.x.tick, true, plot.x.decades, plot.y.decades);
   canvas.clip(frame.box.corner - glm::dvec2(1.0), frame.box.size + glm::dvec2(2.0));
   for (const Series& series : plot.series) draw_series(canvas, frame, series);
   canvas.unclip();
@@ -71,6 +71,33 @@ std::vector<std::string> tick_labels(const std::vector<double>& ticks) {
   const int decimals = step > 0.0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9) : 0;
   std::vector<std::string> labels;
   for (const double tick : ticks) labels.push_back(fmt::format("{}{:.{}f}", tick < 0.0 ? "−" : "", std::abs(tick), decimals));
+  return labels;
+}
+
+std::vector<double> decade_ticks(double low, double high) {
+  constexpr double slack = 1e-9;
+  std::vector<double> ticks;
+  const bool few = high - low < 3.0;
+  for (double power = std::floor(low); power <= high + slack; ++power)
+    for (const double digit : {1.0, 2.0, 5.0})
+      if (const double tick = power + std::log10(digit); (few || digit == 1.0) && tick >= low - slack && tick <= high + slack) ticks.push_back(tick);
+  return ticks;
+}
+
+std::vector<std::string> decade_labels(const std::vector<double>& ticks) {
+  constexpr std::array<const char*, 10> raised = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::vector<std::string> labels;
+  for (const double tick : ticks) {
+    const double power = std::floor(tick + 1e-6);
+    if (power < 5.0 && power > -4.0) {
+      labels.push_back(fmt::format("{:g}", std::round(std::pow(10.0, tick - power)) * std::pow(10.0, power)));
+      continue;
+    }
+    std::string exponent = power < 0.0 ? "⁻" : "";
+    for (const char digit : fmt::format("{:.0f}", std::abs(power))) exponent += raised[static_cast<std::size_t>(digit - '0')];
+    const double factor = std::round(std::pow(10.0, tick - power));
+    labels.push_back((factor > 1.0 ? fmt::format("{:g} × 10", factor) : std::string("10")) + exponent);
+  }
   return labels;
 }
 

@@ -27,6 +27,11 @@ std::vector<double> nice_ticks(double low, double high, int most);
 /// The ticks as text, each with as many decimals as their distance needs.
 std::vector<std::string> tick_labels(const std::vector<double>& ticks);
 
+/// Of an axis of decades: the powers of ten, and where there are few of them 2 and 5 times those.
+std::vector<double> decade_ticks(double low, double high);
+/// "0.02", "500", "10⁶"
+std::vector<std::string> decade_labels(const std::vector<double>& ticks);
+
 /// Ticks at the multiples of a step, such as 30 degrees.
 std::vector<double> even_ticks(double low, double high, double step);
 
@@ -35,6 +40,7 @@ struct Axis {
   std::string label;  ///< with its unit: "range, m"
   std::optional<double> low, high;
   double tick = 0.0;  ///< distance of ticks; 0: a round one
+  bool decades = false;  ///< numbers (and limits) are logarithms to base 10; ticks are labelled with the numbers themselves
 };
 
 struct Series {

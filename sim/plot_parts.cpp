@@ -5,10 +5,10 @@
 
 namespace thicket {
 
-double draw_grid(Canvas& canvas, const Frame& frame, double tick, bool lines) {
-  const auto ticks_x = tick > 0.0 ? even_ticks(frame.x.low, frame.x.high, tick) : nice_ticks(frame.x.low, frame.x.high, std::max(2, static_cast<int>(frame.box.size.x / 75.0)));
-  const auto ticks_y = nice_ticks(frame.y.low, frame.y.high, std::max(2, static_cast<int>(frame.box.size.y / 38.0)));
-  const auto labels_x = tick_labels(ticks_x), labels_y = tick_labels(ticks_y);
+double draw_grid(Canvas& canvas, const Frame& frame, double tick, bool lines, bool decades_x, bool decades_y) {
+  const auto ticks_x = decades_x ? decade_ticks(frame.x.low, frame.x.high) : tick > 0.0 ? even_ticks(frame.x.low, frame.x.high, tick) : nice_ticks(frame.x.low, frame.x.high, std::max(2, static_cast<int>(frame.box.size.x / 75.0)));
+  const auto ticks_y = decades_y ? decade_ticks(frame.y.low, frame.y.high) : nice_ticks(frame.y.low, frame.y.high, std::max(2, static_cast<int>(frame.box.size.y / 38.0)));
+  const auto labels_x = decades_x ? decade_labels(ticks_x) : tick_labels(ticks_x), labels_y = decades_y ? decade_labels(ticks_y) : tick_labels(ticks_y);
   double widest = 0.0;
   for (std::size_t i = 0; i < ticks_x.size(); ++i) {
     const double x = frame.at({ticks_x[i], 0.0}).x;

@@ -55,7 +55,7 @@ struct Frame {
 };
 
 /// Ticks with their numbers and lines; returns how wide the numbers of the y axis are.
-double draw_grid(Canvas& canvas, const Frame& frame, double tick, bool lines);
+double draw_grid(Canvas& canvas, const Frame& frame, double tick, bool lines, bool decades_x = false, bool decades_y = false);
 void draw_labels(Canvas& canvas, const Frame& frame, const Axis& x, const Axis& y, double numbers);
 /// Words that fit into a width: what is too long ends in an ellipsis.
 std::string fitting(Canvas& canvas, const std::string& words, double size, double width);

@@ -193,6 +193,21 @@ void add_experiments(CLI::App& app, ExperimentsArguments& a) {
   app.add_flag("--quiet", a.quiet, "no progress");
 }
 
+void add_bench(CLI::App& app, BenchArguments& a) {
+  app.add_option("--filter", a.filter, "only what this regular expression finds in the name, for example '^map/'")->type_name("REGEX");
+  app.add_flag("--list", a.list, "list the names of the standard set");
+  app.add_option("--repetitions", a.repetitions, "of each thing, interleaved (default: 7, with --short 3)")->check(CLI::Range(1, 1000))->type_name("N");
+  app.add_flag("--short", a.brief, "little time for each thing, and missions end after 5 s: other numbers, for tests");
+  app.add_option("--json", a.json, "file to write, with every repetition")->type_name("FILE");
+  CLI::Option* compare = app.add_option("--compare", a.compare, "file that an earlier call has written: tells what is faster, slower or the same, with intervals of 95 %")->type_name("OLD.json");
+  app.add_option("--with", a.with, "with --compare: measure nothing, compare it with this file")->type_name("NEW.json")->needs(compare);
+  app.add_flag("--quiet", a.quiet, "no progress");
+  app.footer("A name is kind/what/.../peer: those that differ only in the peer are one group, and are related to its first. Kernels are measured by tests/bench/bench of the\n"
+             "same build (`cmake --build --preset release --target bench`), missions and memory by this program. To compare, costs are held against what has nothing of\n"
+             "Thicket in it (bare Embree, a plain grid; of missions a plain loop beside each), so that a busier machine makes nothing slower; intervals are a bootstrap over the\n"
+             "repetitions. docs/performance.md explains the figures. Exit codes: 0 measured, 2 bad usage or file.");
+}
+
 void add_score(CLI::App& app, ScoreArguments& a) {
   app.add_option("run_dir", a.folder, "folder that `thicket run` has written; the run is simulated once more, since its files do not hold probabilities")->required()->type_name("RUN_DIR");
   app.add_option("--truth", a.truth, "when a cell is matter: cell_centre: its centre lies in it; any_overlap: it and matter share any area")->capture_default_str();
@@ -305,6 +320,9 @@ int dispatch(int argc, char** argv) {
   ExperimentsArguments experiments_arguments;
   CLI::App& experiments = *app.add_subcommand("experiments", "make the experiments of Rozeboom 2012 and Billdal 2018: a page with pictures and tables, a section a figure");
   add_experiments(experiments, experiments_arguments);
+  BenchArguments bench_arguments;
+  CLI::App& bench = *app.add_subcommand("bench", "how fast: rays, scans, maps, decisions, missions and memory as one table, and what has changed since an earlier call");
+  add_bench(bench, bench_arguments);
   CLI::App& help = *app.add_subcommand("help", "explain every key of a mission or world file");
   help.add_option("topic", topic, "mission or world")->required();
   bool markdown = false;
@@ -360,6 +378,7 @@ int dispatch(int argc, char** argv) {
   if (sensors.parsed()) return list_sensors(sensor_name);
   if (reachability.parsed()) return study_reachability(reachability_arguments);
   if (experiments.parsed()) return make_experiments(experiments_arguments);
+  if (bench.parsed()) return measure_speed(bench_arguments);
   return help_topic(topic, markdown);
 }
 

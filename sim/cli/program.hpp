@@ -142,6 +142,15 @@ struct ExperimentsArguments {
 };
 int make_experiments(const ExperimentsArguments& arguments);
 
+struct BenchArguments {
+  std::string filter;          ///< regular expression; empty: all
+  std::string json, compare, with;  ///< files; empty: none
+  std::optional<int> repetitions;   ///< default: 7, of the short version 3
+  bool brief = false, list = false, quiet = false;
+};
+/// The standard set of measurements, and whether it differs from an earlier one.
+int measure_speed(const BenchArguments& arguments);
+
 struct GuiArguments {
   std::string file;  ///< mission or world; empty: the window asks
   std::vector<Override> overrides;
