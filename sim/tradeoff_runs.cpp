@@ -109,13 +109,13 @@ std::vector<TradeMoment> thinned(const std::vector<TradeMoment>& moments, std::s
 
 std::vector<Scan> measured(const Mission& mission, const Scene& given, const std::vector<TradeMoment>& moments, std::uint64_t seed) {
   Scene scene = given;
+  std::vector<std::shared_ptr<const Sensor>> sensors;
+  for (std::size_t s = 0; s < mission.sensors.size(); ++s) sensors.push_back(make_sensor(mission.sensors[s], static_cast<std::uint16_t>(s)));
   std::vector<Scan> scans;
   for (std::size_t m = 0; m < moments.size(); ++m) {
     scene.set_time(moments[m].time);
-    for (std::size_t s = 0; s < mission.sensors.size(); ++s) {
-      const auto index = static_cast<std::uint16_t>(s);
-      make_sensor(mission.sensors[s], index)->measure(scene, moments[m].platform, moments[m].time, m, Random(seed, index), scans.emplace_back());
-    }
+    for (std::size_t s = 0; s < sensors.size(); ++s)
+      sensors[s]->measure(scene, moments[m].platform, moments[m].time, m, Random(seed, static_cast<std::uint16_t>(s)), scans.emplace_back());
   }
   return scans;
 }

@@ -89,8 +89,8 @@ std::vector<bool> pareto_front(const std::vector<glm::dvec2>& points);
 /// A mission file that the study recommends, and the run that verified it.
 struct Recommendation {
   std::string name;  ///< fast, balanced, exact
-  std::size_t point = 0;
-  std::string file_text;
+  std::size_t point = 0;        ///< of Tradeoff::points
+  std::filesystem::path file;
   bool verified = false;   ///< the file, read back, ended with the verdict of the reference
   std::string verdict;
   double cpu_ratio = 0.0;  ///< of the verifying run and a run of the mission as it is beside it
@@ -104,6 +104,7 @@ struct TradeoffOptions {
   std::uint64_t seed = 1;         ///< of the order of runs and of the bootstrap
   std::optional<double> seconds;  ///< simulated; nothing: as long as the budget lets it be
   std::vector<Override> overrides;  ///< of the mission, before any knob is turned
+  std::filesystem::path out;      ///< folder of the recommended missions
   std::function<bool()> interrupted;
   std::function<void(const std::string&)> progress;  ///< a line at a time
 };
@@ -120,14 +121,14 @@ struct Tradeoff {
   std::vector<std::string> left_out;  ///< what the budget or the keys' ranges did not let be, a sentence each
 };
 
-/// The study. Errors: the mission cannot be read, an unknown knob, or the budget does not suffice for a run of the mission and of the reference and one setting.
+/// The study. fast.toml, balanced.toml and exact.toml are written into `options.out`, read back and run. Errors: the mission cannot be read, an unknown knob, or the folder cannot be written to.
 Result<Tradeoff> run_tradeoff(const std::filesystem::path& mission, const TradeoffOptions& options);
 
 std::string tradeoff_csv(const Tradeoff& study);
 std::string tradeoff_json(const Tradeoff& study);
 /// The front, what was left out and what is recommended, for a person.
 std::string tradeoff_text(const Tradeoff& study);
-/// tradeoff.csv, tradeoff.json, tradeoff.png, tradeoff.svg and the recommended missions fast.toml, balanced.toml and exact.toml.
+/// tradeoff.csv, tradeoff.json, tradeoff.png and tradeoff.svg.
 Result<Done> write_tradeoff(const std::filesystem::path& folder, const Tradeoff& study);
 
 }  // namespace thicket
