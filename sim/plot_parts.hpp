@@ -51,6 +51,7 @@ Limits limits_of(const Axis& axis, double margin, const Numbers& each_number) {
 struct Frame {
   Box box;
   Limits x, y;
+  bool log_x = false, log_y = false;  ///< the numbers are decimal logarithms
   glm::dvec2 at(const glm::dvec2& p) const { return {box.corner.x + x.share(p.x) * box.size.x, box.bottom() - y.share(p.y) * box.size.y}; }
 };
 
@@ -62,6 +63,8 @@ std::string fitting(Canvas& canvas, const std::string& words, double size, doubl
 
 void draw_shape(Canvas& canvas, PolarPlot::Shape shape, const glm::dvec2& at, double radius, const Colour& colour);
 void draw_series(Canvas& canvas, const Frame& frame, const Series& series);
+/// Writes the points' labels where they cover neither a point nor each other; those for which there is no such place are left out, the last ones first.
+void draw_point_labels(Canvas& canvas, const Frame& frame, const std::vector<Series>& list);
 
 /// What a legend tells of.
 struct Entry {

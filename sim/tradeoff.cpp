@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 /// Shares of the budget: the first run of the mission, the run of the reference, and one round of all settings (two runs each) may take so much, or all are cut short.
 constexpr double first_run_share = 0.06, reference_share = 0.12, round_share = 0.4;
-/// What is kept for verifying, in pairs of the mission's own cost.
+/// What is kept for verifying, in pairs of the mission's own cost; once more the time of the reference comes on top.
 constexpr double verifying_pairs = 5.0;
 /// Poses of the reference run at which sensors are held against each other.
 constexpr std::size_t most_moments = 32;
@@ -308,7 +308,7 @@ void Study::tell_left_out(const std::vector<std::size_t>& settings, const std::v
   if (fewer > 0) study_.left_out.push_back(fmt::format("{} points have fewer than {} repeats; the most is {}", fewer, options_.repeats, most));
   if (!settings.empty()) study_.left_out.push_back("settings for which the budget did not suffice: " + names(settings));
   if (!pairs.empty()) study_.left_out.push_back("pairs for which the budget did not suffice: " + names(pairs));
-  std::erase_if(study_.points, [](const TradePoint& p) { return p.repeats == 0; });
+  std::erase_if(study_.points, [](const TradePoint& p) { return p.repeats == 0; });  // (the mission as it is has run if anything has)
 }
 
 /// Points for a name, the best first.
@@ -371,12 +371,15 @@ Result<Tradeoff> Study::make() {
   study_.budget_s = options_.budget_s;
   add_settings();
   if (auto begun = begin(); !begun) return begun.error();
-  const double until = options_.budget_s - verifying_pairs * 2.0 * own_wall_s_ - 0.02 * options_.budget_s;
+  const double until = options_.budget_s - verifying_pairs * 2.0 * own_wall_s_ - 1.2 * reference_.wall_s - 0.02 * options_.budget_s;
   std::vector<std::size_t> order, settings, pairs;
   for (std::size_t i = 1; i < study_.points.size(); ++i) order.push_back(i);
   run_all(std::move(order), until, settings);
   const std::size_t before = study_.points.size();
-  if (study_.points[0].repeats > 0) add_pairs();
+  if (study_.points[0].repeats == 0)
+    return Error{interrupted() ? "interrupted before the first pair of runs was done"
+                               : fmt::format("--budget: {:g} minutes do not suffice for one run beside another of this mission, expected more, or fewer simulated --seconds", options_.budget_s / 60.0)};
+  add_pairs();
   order.clear();
   for (std::size_t i = before; i < study_.points.size(); ++i) order.push_back(i);
   run_all(std::move(order), until, pairs);
