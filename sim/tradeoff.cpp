@@ -148,6 +148,7 @@ Result<Done> Study::begin() {
   if (!run) return run.error();
   if (run->verdict.reason == "interrupted") study_.cut_s = run->simulated_s;
   reference_ = std::move(*run);
+  study_.reference_verdict = fmt::format("{}: {}", to_string(reference_.verdict.kind), reference_.verdict.reason == "interrupted" ? "cut short" : reference_.verdict.reason);
   own_wall_s_ = first->wall_s * std::min(1.0, study_.cut_s.value_or(first->simulated_s) / std::max(first->simulated_s, 1e-9));
   study_.simulated_s = reference_.simulated_s;
   moments_ = thinned(reference_.moments, most_moments);

@@ -175,7 +175,8 @@ const std::vector<Knob>& tradeoff_knobs() {
       {"bounces", "surfaces that a wave may meet (bounces_max)", true, &bounces},
       {"divergence", "rays of a beam that is a cone (cone_rays)", true, &divergence},
       {"echoes", "echoes kept of a beam (first_echo_only)", false, &echoes},
-      {"bins", "range bins of a receiver (bin_size_m, bin_count)", true, &bins},
+      // (Bins are the device's: with others its noise and its threshold would be others, too.)
+      {"bins", "range bins of a receiver (bin_size_m, bin_count)", false, &bins},
       {"store", "how the map is kept (map.store)", false, &store},
       {"resolution", "cells of the map, m (map.resolution_m)", true, &resolution},
       {"bits", "of a cell of the map (map.cell_bits)", true, &bits},

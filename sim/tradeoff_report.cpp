@@ -105,7 +105,7 @@ std::string tradeoff_csv(const Tradeoff& study) {
 }
 
 std::string tradeoff_json(const Tradeoff& study) {
-  Json json = {{"mission", study.mission}, {"reference", study.reference}, {"simulated_s", study.simulated_s}, {"cut_s", study.cut_s ? Json(*study.cut_s) : Json(nullptr)},
+  Json json = {{"mission", study.mission}, {"reference", study.reference}, {"reference_verdict", study.reference_verdict}, {"simulated_s", study.simulated_s}, {"cut_s", study.cut_s ? Json(*study.cut_s) : Json(nullptr)},
                {"budget_s", study.budget_s}, {"spent_s", study.spent_s}, {"noise_floor", error_json(study.floor)}, {"left_out", study.left_out}};
   json["noise_floor"].erase("same_verdict");
   for (const TradePoint& p : study.points) {
@@ -125,7 +125,7 @@ std::string tradeoff_text(const Tradeoff& study) {
   const auto row = [](const TradeError& e) {
     return fmt::format("{:>8} {:>8} {:>7} {:>9} {:>7} {:>7}", figure(e.total()), figure(e.range_rmse_m), figure(e.amplitude_db), std::isfinite(e.disagreement) ? fmt::format("{:.2f} %", 100.0 * e.disagreement) : "-", figure(e.map_f1), figure(e.path_m));
   };
-  std::string text = fmt::format("reference  {}\nruns       {:g} s simulated, {} settings, {:.0f} s of {:.0f} s used\n\n{:<24}{:>8} {:>8} {:>7} {:>9} {:>7} {:>7}  {}\n", study.reference, study.simulated_s, study.points.size(), study.spent_s,
+  std::string text = fmt::format("reference  {}; {}\nruns       {:g} s simulated, {} settings, {:.0f} s of {:.0f} s used\n\n{:<24}{:>8} {:>8} {:>7} {:>9} {:>7} {:>7}  {}\n", study.reference, study.reference_verdict, study.simulated_s, study.points.size(), study.spent_s,
                                  study.budget_s, "CPU ratio (95 %)", "error", "range m", "dB", "detection", "map F1", "way m", "Pareto front, and the mission as it is");
   auto shown = front_of(study);
   if (!study.points.empty() && !study.points.front().on_front) shown.push_back(0);

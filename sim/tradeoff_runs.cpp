@@ -146,7 +146,9 @@ TradeError trade_error(const TradeRun& reference, const TradeRun& run, const std
   error.map_f1 = run.map_f1;
   error.map_f1_loss = std::isfinite(reference.map_f1 - run.map_f1) ? std::max(0.0, reference.map_f1 - run.map_f1) : TradeError::none;
   error.path_m = way_distance(reference.way, run.way);
-  error.same_verdict = reference.verdict.kind == run.verdict.kind;
+  // What ran until it was cut short is not the same as what stopped by itself.
+  const auto cut = [](const Verdict& verdict) { return verdict.reason == "interrupted" || verdict.reason.starts_with("time limit"); };
+  error.same_verdict = reference.verdict.kind == run.verdict.kind && cut(reference.verdict) == cut(run.verdict);
   return error;
 }
 

@@ -48,7 +48,7 @@ struct TradeError {
   double map_f1 = none;            ///< of its own run, against the world
   double map_f1_loss = none;       ///< by how much that is less than the reference's; 0 if it is more
   double path_m = none;            ///< mean distance of its way from the reference's, or of that from its own, whichever is more
-  bool same_verdict = false;
+  bool same_verdict = false;       ///< as the reference; what ran until its time was over is not as what stopped by itself
 
   /// One number of all: root mean square of range, amplitude, disagreement, loss of F1 and path, each over its tolerance (`trade_tolerances`). At 1 a run is on average just as far off as the tolerances allow.
   double total() const;
@@ -112,6 +112,7 @@ struct TradeoffOptions {
 struct Tradeoff {
   std::string mission;
   std::string reference;       ///< what the reference run is, in words
+  std::string reference_verdict;  ///< with its reason
   TradeError floor;            ///< the reference's sensors against themselves with another seed: what noise alone makes
   double simulated_s = 0.0;    ///< of the reference run
   std::optional<double> cut_s;  ///< where all runs were cut short
