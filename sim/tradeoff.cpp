@@ -131,10 +131,10 @@ Result<Done> Study::begin() {
   study_.cut_s = options_.seconds;
   const auto own = mission_with({});
   if (!own) return own.error();
-  const double until = elapsed() + first_run_share * options_.budget_s;
-  auto first = trade_run(*own, scene_, [&] { return interrupted() || elapsed() > until; });
+  const double begun = elapsed(), until = begun + first_run_share * options_.budget_s;
+  auto first = trade_run(*own, scene_, true, [&] { return interrupted() || elapsed() > until; });
   if (!first) return first.error();
-  const double settings = static_cast<double>(study_.points.size() - 2), round_s = 2.0 * settings * first->wall_s;
+  const double settings = static_cast<double>(study_.points.size() - 2), round_s = settings * (first->wall_s + elapsed() - begun);  // one of the two is judged
   const bool whole = first->verdict.reason != "interrupted";
   const double share = std::min(1.0, round_share * options_.budget_s / std::max(round_s, 1e-9));
   // To whole tenths, so that the number can be given again by hand.
@@ -144,7 +144,7 @@ Result<Done> Study::begin() {
   if (!reference) return reference.error();
   const double late = elapsed() + reference_share * options_.budget_s;
   tell(fmt::format("reference: {}", study_.reference));
-  auto run = trade_run(*reference, scene_, [&] { return interrupted() || elapsed() > late; });
+  auto run = trade_run(*reference, scene_, true, [&] { return interrupted() || elapsed() > late; });
   if (!run) return run.error();
   if (run->verdict.reason == "interrupted") study_.cut_s = run->simulated_s;
   reference_ = std::move(*run);
@@ -182,9 +182,9 @@ bool Study::run_pair(std::size_t index, double until) {
   if (!own || !other) return false;
   const bool first = draw() < 0.5;
   const auto late = [&] { return interrupted() || elapsed() > until; };
-  auto a = trade_run(first ? *own : *other, scene_, late);
+  auto a = trade_run(first ? *own : *other, scene_, study_.points[first ? 0 : index].repeats == 0, late);
   if (!a || a->verdict.reason == "interrupted") return false;
-  auto b = trade_run(first ? *other : *own, scene_, late);
+  auto b = trade_run(first ? *other : *own, scene_, study_.points[first ? index : 0].repeats == 0, late);
   if (!b || b->verdict.reason == "interrupted") return false;
   const TradeRun &mine = first ? *a : *b, &its = first ? *b : *a;
   const auto cpu = [](const TradeRun& run) { return std::max(run.cpu_s, 1e-6) / std::max(run.simulated_s, 1e-9); };
@@ -344,7 +344,7 @@ std::optional<Recommendation> Study::verified(const std::string& name, std::size
   const auto own = mission_with({}), read = read_mission(advice.file, cut);
   if (!own || !read) return advice;
   const auto late = [&] { return interrupted() || elapsed() > options_.budget_s; };
-  const auto its = trade_run(*read, scene_, late), mine = trade_run(*own, scene_, late);
+  const auto its = trade_run(*read, scene_, true, late), mine = trade_run(*own, scene_, false, late);
   if (!its || !mine || its->verdict.reason == "interrupted" || mine->verdict.reason == "interrupted") return advice;
   advice.verdict = to_string(its->verdict.kind);
   advice.cpu_ratio = its->cpu_s / its->simulated_s / (mine->cpu_s / mine->simulated_s);

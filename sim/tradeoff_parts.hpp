@@ -28,8 +28,9 @@ struct TradeRun {
   std::vector<glm::dvec2> way;       ///< places 5 cm apart or more
 };
 
-/// Runs a mission in a scene. `interrupted` is asked now and then; a run that it ended has the verdict stopped, for the reason "interrupted". Score and files are not part of the times.
-Result<TradeRun> trade_run(const Mission& mission, const Scene& scene, const std::function<bool()>& interrupted);
+/// Runs a mission in a scene. `interrupted` is asked now and then; a run that it ended has the verdict stopped, for the reason "interrupted". The score of the map, if it is
+/// asked for, is not part of the times.
+Result<TradeRun> trade_run(const Mission& mission, const Scene& scene, bool score, const std::function<bool()>& interrupted);
 
 /// At most so many of the moments, evenly.
 std::vector<TradeMoment> thinned(const std::vector<TradeMoment>& moments, std::size_t most);

@@ -68,7 +68,7 @@ double mean_distance(const std::vector<glm::dvec2>& from, const std::vector<glm:
 
 }  // namespace
 
-Result<TradeRun> trade_run(const Mission& mission, const Scene& scene, const std::function<bool()>& interrupted) {
+Result<TradeRun> trade_run(const Mission& mission, const Scene& scene, bool score, const std::function<bool()>& interrupted) {
   auto simulation = Simulation::create(mission, scene);
   if (!simulation) return simulation.error();
   TradeRun run;
@@ -96,7 +96,8 @@ Result<TradeRun> trade_run(const Mission& mission, const Scene& scene, const std
   run.rays = simulation->totals().rays;
   run.map_bytes = mission.map.enabled ? simulation->map().memory_bytes() : 0;
   run.verdict = *simulation->verdict();
-  if (const auto score = score_run(*simulation)) run.map_f1 = score->map.f1;  // without a map, or with nothing known, there is none
+  if (!score) return run;
+  if (const auto judged = score_run(*simulation)) run.map_f1 = judged->map.f1;  // without a map, or with nothing known, there is none
   return run;
 }
 
