@@ -300,7 +300,7 @@ void Study::tell_left_out(const std::vector<std::size_t>& settings, const std::v
     for (const std::size_t i : list) words.push_back("'" + study_.points[i].name + "'");
     return fmt::format("{}", fmt::join(words, ", "));
   };
-  if (study_.cut_s) study_.left_out.push_back(fmt::format("all runs are cut short after {:g} simulated seconds{}", *study_.cut_s, options_.seconds ? ", as asked" : ", for the budget"));
+  if (study_.cut_s) study_.left_out.push_back(fmt::format("all runs are cut short after {:g} simulated seconds{}", *study_.cut_s, options_.seconds == study_.cut_s ? ", as asked" : ", for the budget"));
   std::size_t fewer = 0, most = 0;
   for (std::size_t i = 1; i < study_.points.size(); ++i) {
     fewer += study_.points[i].repeats > 0 && study_.points[i].repeats < options_.repeats;
