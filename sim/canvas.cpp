@@ -1,5 +1,6 @@
 #include "canvas.hpp"
 
+#include <cairo-svg.h>
 #include <cairo.h>
 #include <fmt/format.h>
 
@@ -16,10 +17,17 @@ void font(cairo_t* c, double size) {
   cairo_set_font_size(c, size);
 }
 
+cairo_status_t append(void* to, const unsigned char* data, unsigned length) {
+  static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
 }  // namespace
 
-Canvas::Canvas(int width, int height, const Colour& background)
-    : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), cairo_surface_destroy), context_(cairo_create(surface_.get()), cairo_destroy) {
+Canvas::Canvas(int width, int height, const Colour& background, Format format)
+    : svg_(format == Format::svg ? std::make_shared<std::string>() : nullptr),
+      surface_(svg_ ? cairo_svg_surface_create_for_stream(append, svg_.get(), width, height) : cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), cairo_surface_destroy),
+      context_(cairo_create(surface_.get()), cairo_destroy) {
   set(context_.get(), background);
   cairo_paint(context_.get());
   cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_ROUND);
@@ -128,13 +136,10 @@ void Canvas::image(const std::vector<std::uint32_t>& pixels, int columns, int ro
 
 Result<Done> Canvas::write(const std::filesystem::path& file) const {
   std::string png;
-  const auto append = [](void* to, const unsigned char* data, unsigned length) {
-    static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), length);
-    return CAIRO_STATUS_SUCCESS;
-  };
-  const cairo_status_t status = cairo_surface_write_to_png_stream(surface_.get(), append, &png);
+  if (svg_) cairo_surface_finish(surface_.get());
+  const cairo_status_t status = svg_ ? cairo_surface_status(surface_.get()) : cairo_surface_write_to_png_stream(surface_.get(), append, &png);
   if (status != CAIRO_STATUS_SUCCESS) return Error{fmt::format("{}: the picture could not be made: {}", file.string(), cairo_status_to_string(status))};
-  return write_file(file, png);
+  return write_file(file, svg_ ? *svg_ : png);
 }
 
 }  // namespace thicket

@@ -26,7 +26,8 @@ enum class Align : std::uint8_t { left, middle, right };
 /// Pixels, x right, y down.
 class Canvas {
  public:
-  Canvas(int width, int height, const Colour& background);
+  enum class Format : std::uint8_t { png, svg };
+  Canvas(int width, int height, const Colour& background, Format format = Format::png);
 
   void rectangle(const glm::dvec2& corner, const glm::dvec2& size, const Colour& fill);
   void frame(const glm::dvec2& corner, const glm::dvec2& size, const Colour& line, double width);
@@ -47,10 +48,11 @@ class Canvas {
   void clip(const glm::dvec2& corner, const glm::dvec2& size);
   void unclip();
 
-  /// PNG, written whole or not at all.
+  /// In the canvas' format, written whole or not at all. Of an SVG this is the last call.
   Result<Done> write(const std::filesystem::path& file) const;
 
  private:
+  std::shared_ptr<std::string> svg_;  ///< what Cairo has written so far; null for PNG
   std::shared_ptr<_cairo_surface> surface_;
   std::shared_ptr<_cairo> context_;
 };

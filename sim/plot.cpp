@@ -25,11 +25,12 @@ void draw(Canvas& canvas, const Plot& plot, Box box, double right) {
           if (std::isfinite(p.x) && std::isfinite(p.y)) tell(x ? p.x : p.y);
     };
   };
-  const Frame frame{within_axes(box, right), limits_of(plot.x, 0.0, each(true)), limits_of(plot.y, 0.06, each(false))};
-  const double numbers = draw_grid(canvas, frame, plot.x.tick, true, plot.x.decades, plot.y.decades);
+  const Frame frame{within_axes(box, right), limits_of(plot.x, 0.0, each(true)), limits_of(plot.y, 0.06, each(false)), plot.x.logarithmic, plot.y.logarithmic};
+  const double numbers = draw_grid(canvas, frame, plot.x.tick, true);
   canvas.clip(frame.box.corner - glm::dvec2(1.0), frame.box.size + glm::dvec2(2.0));
   for (const Series& series : plot.series) draw_series(canvas, frame, series);
   canvas.unclip();
+  draw_point_labels(canvas, frame, plot.series);
   draw_labels(canvas, frame, plot.x, plot.y, numbers);
 }
 
@@ -64,6 +65,17 @@ std::vector<double> even_ticks(double low, double high, double step) {
   std::vector<double> ticks;
   for (double i = std::ceil((low - slack) / step); i <= std::floor((high + slack) / step); ++i) ticks.push_back(i * step + 0.0);
   return ticks;
+}
+
+std::vector<double> log_ticks(double low, double high, int most) {
+  for (const std::vector<double>& digits : {std::vector{1.0, 2.0, 5.0}, std::vector{1.0}}) {
+    std::vector<double> ticks;
+    for (double power = std::floor(low); power <= std::ceil(high); ++power)
+      for (const double digit : digits)
+        if (const double tick = power + std::log10(digit); tick >= low - 1e-9 && tick <= high + 1e-9) ticks.push_back(tick);
+    if (static_cast<int>(ticks.size()) <= most) return ticks;
+  }
+  return nice_ticks(low, high, most);
 }
 
 std::vector<std::string> tick_labels(const std::vector<double>& ticks) {
@@ -105,7 +117,7 @@ Result<Done> Sheet::write(const std::filesystem::path& file) const {
   double height = sheet_margin + 14.0 + 20.0 * static_cast<double>(subtitles.size()) + 12.0;
   const double head = height;
   for (const Row& row : rows) height += row.height + panel_gap;
-  Canvas canvas(width, static_cast<int>(std::ceil(height)), white);
+  Canvas canvas(width, static_cast<int>(std::ceil(height)), white, file.extension() == ".svg" ? Canvas::Format::svg : Canvas::Format::png);
   const double inside = width - 2.0 * sheet_margin;
   canvas.text(fitting(canvas, title, title_size, inside), {sheet_margin, sheet_margin + 12.0}, title_size, ink);
   for (std::size_t i = 0; i < subtitles.size(); ++i)

@@ -35,12 +35,15 @@ std::vector<std::string> decade_labels(const std::vector<double>& ticks);
 /// Ticks at the multiples of a step, such as 30 degrees.
 std::vector<double> even_ticks(double low, double high, double step);
 
+/// Ticks of an axis whose numbers are decimal logarithms: at 1, 2 and 5 times powers of ten, or where these are too many at powers of ten alone.
+std::vector<double> log_ticks(double low, double high, int most);
+
 /// From the smallest to the largest of what is shown, where no limits are given.
 struct Axis {
   std::string label;  ///< with its unit: "range, m"
   std::optional<double> low, high;
   double tick = 0.0;  ///< distance of ticks; 0: a round one
-  bool decades = false;  ///< numbers (and limits) are logarithms to base 10; ticks are labelled with the numbers themselves
+  bool logarithmic = false;  ///< its numbers, limits too, are decimal logarithms of what stands at its ticks; of a Plot
 };
 
 struct Series {
@@ -49,6 +52,7 @@ struct Series {
   Kind kind = Kind::line;
   Colour colour;
   std::vector<glm::dvec2> points;  ///< a curve has a gap where a number is not finite
+  std::vector<std::string> labels = {};  ///< beside the points, where there is room; of a Plot
 };
 
 /// Curves and marks over two axes.
@@ -98,7 +102,7 @@ struct Sheet {
   int width = 1000;
   std::vector<Row> rows;
 
-  /// PNG, written whole or not at all.
+  /// SVG if the name ends in .svg, else PNG; written whole or not at all.
   Result<Done> write(const std::filesystem::path& file) const;
 };
 

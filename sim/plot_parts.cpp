@@ -1,14 +1,27 @@
 #include "plot_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <numeric>
 
 namespace thicket {
 
-double draw_grid(Canvas& canvas, const Frame& frame, double tick, bool lines, bool decades_x, bool decades_y) {
-  const auto ticks_x = decades_x ? decade_ticks(frame.x.low, frame.x.high) : tick > 0.0 ? even_ticks(frame.x.low, frame.x.high, tick) : nice_ticks(frame.x.low, frame.x.high, std::max(2, static_cast<int>(frame.box.size.x / 75.0)));
-  const auto ticks_y = decades_y ? decade_ticks(frame.y.low, frame.y.high) : nice_ticks(frame.y.low, frame.y.high, std::max(2, static_cast<int>(frame.box.size.y / 38.0)));
-  const auto labels_x = decades_x ? decade_labels(ticks_x) : tick_labels(ticks_x), labels_y = decades_y ? decade_labels(ticks_y) : tick_labels(ticks_y);
+double draw_grid(Canvas& canvas, const Frame& frame, double tick, bool lines) {
+  const int most_x = std::max(2, static_cast<int>(frame.box.size.x / 75.0)), most_y = std::max(2, static_cast<int>(frame.box.size.y / 38.0));
+  // Over whole decades at their powers of ten; within one at round numbers.
+  const auto in_decades = [](const Limits& limits) { return limits.high - limits.low >= 1.0; };
+  const auto logarithms = [&](const Limits& limits, int most) { return in_decades(limits) ? decade_ticks(limits.low, limits.high) : log_ticks(limits.low, limits.high, most); };
+  const auto ticks_x = frame.log_x ? logarithms(frame.x, most_x) : tick > 0.0 ? even_ticks(frame.x.low, frame.x.high, tick) : nice_ticks(frame.x.low, frame.x.high, most_x);
+  const auto ticks_y = frame.log_y ? logarithms(frame.y, most_y) : nice_ticks(frame.y.low, frame.y.high, most_y);
+  const auto words = [&](const std::vector<double>& ticks, const Limits& limits, bool logarithmic) {
+    if (!logarithmic) return tick_labels(ticks);
+    if (in_decades(limits)) return decade_labels(ticks);
+    std::vector<std::string> labels;
+    for (const double one : ticks) labels.push_back(fmt::format("{:.3g}", std::pow(10.0, one)));
+    return labels;
+  };
+  const auto labels_x = words(ticks_x, frame.x, frame.log_x), labels_y = words(ticks_y, frame.y, frame.log_y);
   double widest = 0.0;
   for (std::size_t i = 0; i < ticks_x.size(); ++i) {
     const double x = frame.at({ticks_x[i], 0.0}).x;
@@ -100,6 +113,31 @@ void draw_series(Canvas& canvas, const Frame& frame, const Series& series) {
       canvas.disc(at, radius, series.colour);
     }
   }
+}
+
+void draw_point_labels(Canvas& canvas, const Frame& frame, const std::vector<Series>& list) {
+  constexpr double size = 11.0, height = 12.0, away = 7.0;
+  std::vector<Box> taken;
+  for (const Series& series : list)
+    if (series.kind == Series::Kind::points || series.kind == Series::Kind::rings)
+      for (const glm::dvec2& p : series.points)
+        if (std::isfinite(p.x) && std::isfinite(p.y)) taken.push_back({frame.at(p) - glm::dvec2(3.0), glm::dvec2(6.0)});
+  const auto apart = [](const Box& a, const Box& b) { return a.right() <= b.corner.x || b.right() <= a.corner.x || a.bottom() <= b.corner.y || b.bottom() <= a.corner.y; };
+  for (const Series& series : list)
+    for (std::size_t i = 0; i < std::min(series.points.size(), series.labels.size()); ++i) {
+      if (!std::isfinite(series.points[i].x) || !std::isfinite(series.points[i].y)) continue;
+      const glm::dvec2 at = frame.at(series.points[i]);
+      const double width = canvas.text_width(series.labels[i], size);
+      const glm::dvec2 corners[] = {{away, -0.5 * height}, {-away - width, -0.5 * height}, {-0.5 * width, -away - height}, {-0.5 * width, away}, {away, -away - height}, {away, away}, {-away - width, -away - height}, {-away - width, away}};
+      for (const glm::dvec2& corner : corners) {
+        const Box box{at + corner, {width, height}};
+        if (box.corner.x < frame.box.corner.x || box.right() > frame.box.right() || box.corner.y < frame.box.corner.y || box.bottom() > frame.box.bottom()) continue;
+        if (!std::ranges::all_of(taken, [&](const Box& other) { return apart(box, other); })) continue;
+        canvas.text(series.labels[i], {box.corner.x, box.bottom() - 2.5}, size, ink);
+        taken.push_back(box);
+        break;
+      }
+    }
 }
 
 // --- headings: a panel's title, and its legend below it

@@ -51,17 +51,20 @@ Limits limits_of(const Axis& axis, double margin, const Numbers& each_number) {
 struct Frame {
   Box box;
   Limits x, y;
+  bool log_x = false, log_y = false;  ///< the numbers are decimal logarithms
   glm::dvec2 at(const glm::dvec2& p) const { return {box.corner.x + x.share(p.x) * box.size.x, box.bottom() - y.share(p.y) * box.size.y}; }
 };
 
 /// Ticks with their numbers and lines; returns how wide the numbers of the y axis are.
-double draw_grid(Canvas& canvas, const Frame& frame, double tick, bool lines, bool decades_x = false, bool decades_y = false);
+double draw_grid(Canvas& canvas, const Frame& frame, double tick, bool lines);
 void draw_labels(Canvas& canvas, const Frame& frame, const Axis& x, const Axis& y, double numbers);
 /// Words that fit into a width: what is too long ends in an ellipsis.
 std::string fitting(Canvas& canvas, const std::string& words, double size, double width);
 
 void draw_shape(Canvas& canvas, PolarPlot::Shape shape, const glm::dvec2& at, double radius, const Colour& colour);
 void draw_series(Canvas& canvas, const Frame& frame, const Series& series);
+/// Writes the points' labels where they cover neither a point nor each other; those for which there is no such place are left out, the last ones first.
+void draw_point_labels(Canvas& canvas, const Frame& frame, const std::vector<Series>& list);
 
 /// What a legend tells of.
 struct Entry {

@@ -184,6 +184,19 @@ void add_reachability(CLI::App& app, ReachabilityArguments& a) {
              "theorem's bound + 2 m. Exit codes: 0 nothing is wrong or over, 2 bad usage or file, 4 interrupted, 6 something is wrong or over.");
 }
 
+void add_tradeoff(CLI::App& app, TradeoffArguments& a) {
+  app.add_option("mission", a.mission, "mission file; shipped ones are found from any directory")->required()->type_name("MISSION");
+  app.add_option("--knobs", a.knobs, "what is turned, of rays,elevation,bounces,divergence,echoes,bins,store,resolution,bits,bumpers,step,rate (default: all that the mission has)")->type_name("NAME,...");
+  app.add_option("--budget", a.budget_min, "wall time of it all, minutes: first there are fewer repeats, then fewer pairs and settings, and what is left out is told")->check(CLI::PositiveNumber)->capture_default_str()->type_name("MINUTES");
+  app.add_option("--repeats", a.repeats, "runs of each setting, at most, each beside one of the mission as it is")->check(CLI::Range(1, 1000))->capture_default_str()->type_name("N");
+  app.add_option("--seed", a.seed, "of the order of runs (the mission's own seed is a key of it)")->check(CLI::NonNegativeNumber)->capture_default_str()->type_name("N");
+  app.add_option("--seconds", a.seconds, "cut all runs short after so many simulated seconds (default: only where the budget asks for it)")->check(CLI::PositiveNumber)->type_name("S");
+  app.add_option("--set", a.sets, "any key of `thicket help mission`, before knobs are turned; may be given often")->type_name("KEY=VALUE")->allow_extra_args(false);
+  app.add_option("--out", a.out, "folder for tradeoff.csv, .json, .png, .svg and the missions fast.toml, balanced.toml, exact.toml (default: thicket-out/NAME-tradeoff)")->type_name("DIR");
+  app.add_flag("--quiet", a.quiet, "no progress");
+  app.footer("docs/tradeoff.md explains every figure. Exit codes: 0 done, 2 bad usage or file, 4 interrupted, 6 a recommended mission does not end as the reference run, or was not run.");
+}
+
 void add_experiments(CLI::App& app, ExperimentsArguments& a) {
   app.add_option("names", a.names, "experiments to make (default: all)")->type_name("NAME");
   app.add_flag("--list", a.list, "list them, with the figures of the sources that they stand for");
@@ -323,6 +336,9 @@ int dispatch(int argc, char** argv) {
   BenchArguments bench_arguments;
   CLI::App& bench = *app.add_subcommand("bench", "how fast: rays, scans, maps, decisions, missions and memory as one table, and what has changed since an earlier call");
   add_bench(bench, bench_arguments);
+  TradeoffArguments tradeoff_arguments;
+  CLI::App& tradeoff = *app.add_subcommand("tradeoff", "what accuracy costs: a mission with its knobs turned, cost against error, and fast, balanced and exact missions");
+  add_tradeoff(tradeoff, tradeoff_arguments);
   CLI::App& help = *app.add_subcommand("help", "explain every key of a mission or world file");
   help.add_option("topic", topic, "mission or world")->required();
   bool markdown = false;
@@ -377,6 +393,7 @@ int dispatch(int argc, char** argv) {
   if (scan.parsed()) return measure_scans(scan_arguments);
   if (sensors.parsed()) return list_sensors(sensor_name);
   if (reachability.parsed()) return study_reachability(reachability_arguments);
+  if (tradeoff.parsed()) return study_tradeoff(tradeoff_arguments);
   if (experiments.parsed()) return make_experiments(experiments_arguments);
   if (bench.parsed()) return measure_speed(bench_arguments);
   return help_topic(topic, markdown);

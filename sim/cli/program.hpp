@@ -135,6 +135,18 @@ struct ReachabilityArguments {
 /// 0: nothing is wrong, 6: something is.
 int study_reachability(const ReachabilityArguments& arguments);
 
+struct TradeoffArguments {
+  std::string mission, knobs, out;  ///< out empty: thicket-out/NAME-tradeoff
+  double budget_min = 2.0;
+  int repeats = 5;
+  std::int64_t seed = 1;
+  std::optional<double> seconds;
+  std::vector<std::string> sets;
+  bool quiet = false;
+};
+/// 0: done, 6: a recommended mission could not be verified.
+int study_tradeoff(const TradeoffArguments& arguments);
+
 struct ExperimentsArguments {
   std::vector<std::string> names;  ///< empty: all
   std::string out, page;           ///< empty: docs/experiments in the tree, else thicket-out/experiments
