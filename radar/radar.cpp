@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "mount.hpp"
+#include "one_row.hpp"
 #include "ray_sampler.hpp"
 #include "receiver.hpp"
 #include "sensors.hpp"
@@ -43,6 +44,7 @@ struct Parts {
   std::size_t row = 1;           ///< traced rays of a row, of which one is chosen
   bool ray_beams = false;        ///< traced, every ray is a beam of its own (a lobe)
   bool first_echo_only = false;
+  std::optional<OneRow> one_row;  ///< where one row of rays may stand for all of a lobe
 };
 
 class Radar final : public Sensor {
@@ -73,6 +75,15 @@ class Radar final : public Sensor {
     const glm::dvec3 velocity = platform.velocity + glm::cross(platform.turn_rate, sensor.position - platform.pose.position);
     const TraceContext context(scene, p_.wave, spec().range_min_m, spec().range_max_m, p_.sampler.antenna(), sensor, velocity, random, number);
 
+    if (p_.one_row && p_.one_row->holds(context)) {
+      Result result = std::exchange(spare_result(), {});
+      result.ground.clear();  // which would be out of reach
+      result.returns.resize(1);
+      scan.rays += p_.one_row->returns(context, p_.sampler, result.returns.front());
+      receive(context, result, scan);
+      spare_result() = std::move(result);
+      return;
+    }
     const std::size_t count = p_.sampler.count();
     const bool own_traits = !p_.sampler.always_the_same(), rays_are_beams = !received_ && (p_.ray_beams || p_.sampler.rays_per_beam() == 1);
     Result result = std::exchange(spare_result(), {});
@@ -403,6 +414,7 @@ std::shared_ptr<const Sensor> make_radar(const ScanningRadarSpec& spec, std::uin
 std::shared_ptr<const Sensor> make_radar(const LobeRadarSpec& spec, std::uint16_t index) {
   Parts parts = parts_of(spec, 1);
   parts.ray_beams = true;
+  parts.one_row = OneRow::make(spec, parts.sampler);
   return std::make_shared<Radar>(std::move(parts), index);
 }
 

@@ -15,6 +15,9 @@
 
 namespace thicket {
 
+/// The 1/R^2 of what is nearer is that of this, m.
+inline constexpr double nearest_range = 0.01;
+
 /// What a ray that leaves the sensor stands for.
 struct RayTraits {
   float spread = 0.0f;       ///< rad, the angle that it stands for
@@ -56,6 +59,7 @@ struct TraceContext {
   std::vector<double> losses;  ///< of the materials, dB/m
   double list_budget_db = 0.0; ///< as far as solids are listed along a ray
   bool first_surface_only;     ///< nothing in the world lets a wave through
+  bool multipath;              ///< waves go on from what mirrors them, and something does
   bool printed;
 };
 
