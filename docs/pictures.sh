@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes every picture of the docs anew, with the program; or those of one kind: bugs, maps, radar, window, worlds.
+# Makes every picture of the docs anew, with the program; or those of one kind: bugs, maps, radar, sar, window, worlds.
 set -euo pipefail
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 program=${THICKET_PROGRAM:-$root/thicket}
@@ -69,6 +69,13 @@ if [[ ${1:-all} == all || $1 == radar ]]; then
   scan smoothing strafe/mirror --pose 0,0,0.5,0 --sensor x4m05 --set smoothing_bins=15 --set noise=0.008 --compare x4m05
   scan cfar test_room/test_room --pose 1,2.6,1,0 --sensor x4m05 --set 'detector="ca_cfar"' --set cfar_guard_bins=25 --set cfar_training_bins=50 --set floor_gate=false --compare x4m05
   scan floor_gate test_room/test_room --pose 0,2.5,1,180 --sensor x4m05 --set floor_gate=false --compare x4m05
+fi
+if [[ ${1:-all} == all || $1 == sar ]]; then
+  mkdir -p -- docs/pictures/sar
+  "$program" run sar/strafe --out "$runs/sar" --quiet
+  cp -- "$runs/sar/sar.png" docs/pictures/sar/back_projection.png
+  "$program" sar "$runs/sar" --method simple_sum --set sar.fuse=false --out "$runs/summed"
+  cp -- "$runs/summed/sar.png" docs/pictures/sar/simple_sum.png
 fi
 if [[ ${1:-all} == all || $1 == maps ]]; then
   for mission in foliage_wall/{bug1,bug2,closed,smoke,map_radar,map_first_echo,map_lidar} rooms/{convex,u,spiral}; do map "$mission"; done

@@ -98,6 +98,7 @@ struct Frame {
 std::unique_ptr<View> make_world_view();
 std::unique_ptr<View> make_map_view();
 std::unique_ptr<View> make_radar_view();
+std::unique_ptr<View> make_sar_view();
 std::unique_ptr<View> make_space_view();
 std::unique_ptr<View> make_planner_view();
 std::unique_ptr<View> make_plots_view();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flight.hpp"
 #include "planners.hpp"
 #include "thicket/base/text.hpp"
 
@@ -75,7 +76,12 @@ const Section& planner_section() {
       SectionOf<S>("[planner]", "what drives the vehicle")
           .choice("name", &S::name, planner_names(), help_of_kinds())
           .key("goal_m", &S::goal_m, "m", between(-1e9, 1e9), "x, y of the goal")
-          .key("waypoints_m", &S::waypoints_m, "m", between(-1e9, 1e9), "for the planner waypoints: [[x, y], ...] in order")
+          .key("waypoints_m", &S::waypoints_m, "m", between(-1e9, 1e9), "for the planner waypoints: [[x, y], ...] in order; of a quadrotor also [x, y, z], z: the altitude there")
+          .key("waypoint_speeds_m_s", &S::waypoint_speeds_m_s, "m/s", above_up_to(0.0, 1e3), "speed on the way to each way-point, one for each; not given: speed_m_s")
+          .key("hover_s", &S::hover_s, "s", between(0.0, 1e6), "time to stand at each way-point")
+          .key("heading_deg", &S::heading_deg, "deg", between(-36000.0, 36000.0), "of a quadrotor on way-points: the heading that it holds while it moves, be it sideways (strafing); not given: where it goes")
+          .key("altitude_m", &S::altitude_m, "m", above_up_to(0.0, 1e6), "of a quadrotor: flight altitude above z = 0, taken before anything else; not given: the start's")
+          .key("land", &S::land, "of a quadrotor: down to the floor after the goal or the last way-point, then the verdict")
           .choice("hand", &S::hand, {"left", "right"}, "which hand touches the wall while following it; left turns right at a wall")
           .key("clearance_m", &S::clearance_m, "m", above_up_to(0.0, 1e3), "distance kept between hull and matter; a gap narrower than the hull and two of it is a wall. auto: the widest that leaves a way to the goal, computed from the world before the run")
           .or_word("auto", &S::clearance_auto)
@@ -95,7 +101,10 @@ Result<std::unique_ptr<Planner>> make_planner(const PlannerSpec& spec, const Veh
     return Error{fmt::format("the planner '{}' lacks way-points: give planner.waypoints_m", spec.name)};
   if (kind->needs == PlannerNeeds::goal && !spec.goal_m)
     return Error{fmt::format("the planner '{}' lacks a goal: give planner.goal_m or --goal X,Y", spec.name)};
-  return kind->make(spec, vehicle, start);
+  if (const std::string fault = flight_fault(spec, vehicle.flight.has_value(), vehicle.flight ? vehicle.flight->start_altitude : 0.0); !fault.empty()) return Error{"[planner]: " + fault};
+  if (!vehicle.flight) return kind->make(spec, vehicle, start);
+  auto planner = kind->needs == PlannerNeeds::waypoints ? make_flown_waypoints(spec, vehicle, start) : kind->make(spec, vehicle, start);
+  return make_flight(std::move(planner), spec, vehicle, start);
 }
 
 double press_distance(const BumperSpec& bumpers, const PlannerSpec& planner, const VehicleLimits& vehicle) {

@@ -1,5 +1,6 @@
 #include "one_row.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>

@@ -396,7 +396,7 @@ class Radar final : public Sensor {
 
 template <class Spec>
 Parts parts_of(const Spec& spec, std::size_t drawn_from) {
-  return {spec, spec, spec, RaySampler(Antenna(spec), spec.sampling == "jitter", drawn_from)};
+  return {.mounted = spec, .wave = spec, .receiver = spec, .sampler = RaySampler(Antenna(spec), spec.sampling == "jitter", drawn_from), .one_row = std::nullopt};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "thicket/base/pose.hpp"
+#include "turns.hpp"
 #include "wave.hpp"
 
 namespace thicket {
@@ -55,20 +56,6 @@ void spread_block(const float* in, std::span<const float> pulse, float* out) {
   std::memcpy(out + 4, &b, sizeof b);
   std::memcpy(out + 8, &c, sizeof c);
   std::memcpy(out + 12, &d, sizeof d);
-}
-
-/// Cosine and sine of whole turns, |turns| < 2^50, to 1e-12 (plus the rounding of `turns`). No branches and no calls: several at a time.
-void cosine_and_sine(const std::array<double, phases_at_a_time>& turns, std::array<double, phases_at_a_time>& cosine, std::array<double, phases_at_a_time>& sine) {
-  constexpr double rounds = 0x1.8p52;  // a double of this size has no room for a fraction
-  for (std::size_t i = 0; i < phases_at_a_time; ++i) {
-    const double whole = (turns[i] + rounds) - rounds;
-    const double x = (turns[i] - whole) * (0.5 * pi), x2 = x * x;  // a quarter of the angle, up to pi/4
-    const double s = x * (1.0 + x2 * (-1.0 / 6 + x2 * (1.0 / 120 + x2 * (-1.0 / 5040 + x2 * (1.0 / 362880 + x2 * (-1.0 / 39916800 + x2 * (1.0 / 6227020800)))))));
-    const double c = 1.0 + x2 * (-0.5 + x2 * (1.0 / 24 + x2 * (-1.0 / 720 + x2 * (1.0 / 40320 + x2 * (-1.0 / 3628800 + x2 * (1.0 / 479001600))))));
-    const double s_half = 2.0 * s * c, c_half = 1.0 - 2.0 * s * s;
-    sine[i] = 2.0 * s_half * c_half;
-    cosine[i] = 1.0 - 2.0 * s_half * s_half;
-  }
 }
 
 }  // namespace

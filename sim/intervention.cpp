@@ -58,11 +58,26 @@ Result<Simulation> Simulation::changed(const Mission& mission, Scene scene, cons
   next.steps_ = is.step_s == was.step_s ? steps_ : static_cast<std::uint64_t>(std::llround(time() / is.step_s));
   next.scene_.set_time(next.time());
   next.vehicle_ = vehicle_;
-  if (pose) next.vehicle_ = {*pose, 0.0, 0.0};
+  if (!is.vehicle.flies() || !was.vehicle.flies()) {
+    // Another kind of vehicle begins as that kind does, where this one is.
+    next.vehicle_ = {};
+    static_cast<DifferentialDrive&>(next.vehicle_) = vehicle_;
+    next.vehicle_.z = is.start.z_m;
+    next.vehicle_.on_floor = is.vehicle.flies() && is.start.z_m <= 0.0;
+  }
+  if (pose) {
+    const double z = next.vehicle_.z;
+    next.vehicle_ = {};
+    next.vehicle_.pose = *pose;
+    next.vehicle_.z = z;
+    next.vehicle_.on_floor = is.vehicle.flies() && z <= 0.0;
+  }
+  if (pose || !is.vehicle.flies() || !was.vehicle.flies()) next.vehicle_.attitude = Pose::planar(0.0, 0.0, 0.0, next.vehicle_.pose.yaw).orientation;
   const bool odometry_stays = same(odometry_section(), was.odometry, is.odometry) && was.seed == is.seed;
   if (odometry_stays && !pose) next.odometry_ = odometry_;
   else next.odometry_ = Odometry(is.odometry, pose ? *pose : estimate(), static_cast<std::uint64_t>(is.seed));
   if (same(map_section(), was.map, is.map) && was.initial_map_file == is.initial_map_file) next.map_ = map_;
+  if (next.sar_ && sar_ && same(sar_section(), was.sar, is.sar) && next.sar_->method() == sar_->method() && next.sar_->frequency_ghz() == sar_->frequency_ghz() && next.stage_->sar_sensor == stage_->sar_sensor) next.sar_ = sar_;
   // Sensors go on at their rates; what they sensed last stays in view as long as there are as many of them.
   const bool as_many = stage_->sensors.size() == next.stage_->sensors.size();
   for (std::size_t i = 0; i < next.scan_counts_.size(); ++i) {
@@ -88,6 +103,7 @@ Result<Simulation> Simulation::changed(const Mission& mission, Scene scene, cons
   next.totals_ = totals_;
   next.times_ = times_;
   next.stuck_pose_ = next.vehicle_.pose;
+  next.stuck_z_ = next.vehicle_.z;
   next.place_ = next.vehicle_.pose.position;
   next.stuck_step_ = next.place_step_ = next.steps_;
   next.verdict_.reset();
@@ -104,6 +120,12 @@ std::uint64_t state_hash(const Simulation& simulation) {
   hash.pose(simulation.vehicle().pose);
   hash.pose(simulation.estimate());
   for (const double x : {simulation.vehicle().speed, simulation.vehicle().turn_rate, simulation.decision().command.speed, simulation.decision().command.turn_rate}) hash.number(x);
+  if (simulation.mission().vehicle.flies()) {
+    const Vehicle& v = simulation.vehicle();
+    for (const glm::dvec3& x : {v.velocity, v.rates, v.unrest.gust, v.unrest.jitter}) hash.bytes(&x, sizeof x);
+    for (const double x : {v.z, v.attitude.w, v.attitude.x, v.attitude.y, v.attitude.z, simulation.decision().command.lateral, simulation.decision().command.climb, simulation.decision().command.altitude.value_or(-1.0)}) hash.number(x);
+    hash.number(v.on_floor);
+  }
   hash.text(simulation.decision().state);
   hash.number(simulation.driven_by_hand());
   for (const Scan& scan : simulation.scans()) {
@@ -123,6 +145,10 @@ std::uint64_t state_hash(const Simulation& simulation) {
     for (const double x : {mark.from.x, mark.from.y, mark.to.x, mark.to.y}) hash.number(x);
   const std::vector<std::uint8_t> map = simulation.map().changes_since(OccupancyMap(simulation.mission().map));
   hash.bytes(map.data(), map.size());
+  if (const SarImage* sar = simulation.sar()) {
+    hash.number(sar->scans());
+    for (const float a : sar->grid().amplitude) hash.number(a);
+  }
   const RunTotals& totals = simulation.totals();
   for (const double x : {totals.path_length, totals.least_clearance}) hash.number(x);
   for (const std::uint64_t n : {totals.scans, totals.rays, totals.decisions}) hash.number(n);

@@ -8,6 +8,7 @@
 #include "thicket/base/files.hpp"
 #include "thicket/base/text.hpp"
 #include "thicket/sim/mission_parts.hpp"
+#include "thicket/sim/sar.hpp"
 
 namespace thicket {
 namespace {
@@ -33,7 +34,7 @@ const Section& start_section() {
   static const Section section = SectionOf<S>("[start]", "where the vehicle starts")
                                      .key("x_m", &S::x_m, "m", between(-1e9, 1e9), "east")
                                      .key("y_m", &S::y_m, "m", between(-1e9, 1e9), "north")
-                                     .key("z_m", &S::z_m, "m", between(-1e9, 1e9), "height of the ground under it")
+                                     .key("z_m", &S::z_m, "m", between(-1e9, 1e9), "height of the ground under it; of a quadrotor its own altitude, 0: it stands on the floor")
                                      .key("yaw_deg", &S::yaw_deg, "deg", between(-36000.0, 36000.0), "heading, counter-clockwise from east");
   return section;
 }
@@ -73,7 +74,8 @@ const std::vector<Part>& parts() {
       {"vehicle", &vehicle_section, [](Mission& m) -> void* { return &m.vehicle; }}, {"start", &start_section, [](Mission& m) -> void* { return &m.start; }},
       {"bumpers", &bumper_section, [](Mission& m) -> void* { return &m.bumpers; }},  {"planner", &planner_section, [](Mission& m) -> void* { return &m.planner; }},
       {"odometry", &odometry_section, [](Mission& m) -> void* { return &m.odometry; }},
-      {"map", &map_section, [](Mission& m) -> void* { return &m.map; }},             {"limits", &limit_section, [](Mission& m) -> void* { return &m.limits; }},
+      {"map", &map_section, [](Mission& m) -> void* { return &m.map; }},             {"sar", &sar_section, [](Mission& m) -> void* { return &m.sar; }},
+      {"limits", &limit_section, [](Mission& m) -> void* { return &m.limits; }},
       {"output", &output_section, [](Mission& m) -> void* { return &m.output; }},
   };
   return list;
@@ -197,6 +199,10 @@ void check_together(const Node& root, const Mission& mission, Faults& faults) {
     const char* lack = needs == PlannerNeeds::waypoints ? "way-points: give planner.waypoints_m" : "a goal: give planner.goal_m, or --goal X,Y";
     faults.add(place("planner"), fmt::format("the planner '{}' lacks {}", mission.planner.name, lack));
   }
+  if (const std::string fault = flight_fault(mission.planner, mission.vehicle.flies(), mission.start.z_m); !fault.empty()) faults.add(place("planner"), fault);
+  if (mission.vehicle.drag.size() != 1 && mission.vehicle.drag.size() != 3)
+    faults.add(place("vehicle"), fmt::format("'drag' has {} numbers, expected one, or three along the body axes", mission.vehicle.drag.size()));
+  if (mission.vehicle.flies() && mission.start.z_m < 0.0) faults.add(place("start"), fmt::format("'z_m' is {}, expected at least 0: a quadrotor flies above the floor at z = 0", mission.start.z_m));
   for (const SensorSpec& sensor : mission.sensors) {
     const double cells = 2.0 * mounted(sensor).range_max_m / mission.map.resolution_m;
     if (mission.map.enabled && cells * cells > 0x1p28)
@@ -214,6 +220,7 @@ void check_together(const Node& root, const Mission& mission, Faults& faults) {
   for (const std::string& name : names_in(mission.output.map_formats))
     if (std::ranges::find(map_format_names(), name) == map_format_names().end())
       faults.add(place("output"), fmt::format("'map_formats' names '{}', expected names separated by commas, of '{}'{}", name, fmt::join(map_format_names(), "', '"), did_you_mean(name, map_format_names())));
+  if (const auto fault = sar_fault(mission)) faults.add(place("sar"), *fault);
   if (const auto& r = mission.output.observed_region_m; r && (r->z - r->x) * (r->w - r->y) > 1e7 * mission.map.resolution_m * mission.map.resolution_m)
     faults.add(place("output"), "'observed_region_m' has more than 10 million cells, expected a smaller one");
   if (const auto& r = mission.output.observed_region_m; r && !(r->x < r->z && r->y < r->w))

@@ -25,4 +25,14 @@ void Odometry::advance(const Arc& arc, double dt, std::uint64_t step) {
   pose_ = believed.at(dt);
 }
 
+void Odometry::advance(const Pose2& from, const Pose2& to, double dt, std::uint64_t step) {
+  if (perfect()) return;
+  const auto noise = Random(seed_, 0).normal(step, 0, RandomUse::odometry, 0);
+  const double larger = std::sqrt(0.1 / dt), turn = wrap_angle(to.yaw - from.yaw);
+  // Ways are measured along the heading in the middle of the step.
+  const glm::dvec2 measured = spec_.speed_scale * Pose2{from.position, from.yaw + 0.5 * turn}.to_inner(to.position) + spec_.speed_noise_m_s * larger * dt * glm::dvec2(noise[0], noise[2]);
+  const double turned = spec_.turn_scale * turn + spec_.turn_noise_rad_s * larger * dt * noise[1];
+  pose_ = {Pose2{pose_.position, pose_.yaw + 0.5 * turned}.to_outer(measured), wrap_angle(pose_.yaw + turned)};
+}
+
 }  // namespace thicket

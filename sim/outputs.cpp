@@ -11,6 +11,7 @@
 #include "thicket/base/files.hpp"
 #include "thicket/base/probability_file.hpp"
 #include "thicket/sim/probability_picture.hpp"
+#include "thicket/sim/sar.hpp"
 #include "thicket/worlds/truth.hpp"
 
 namespace thicket {
@@ -122,6 +123,11 @@ std::string result_json(const Simulation& simulation, const std::optional<RunSco
   if (mission.planner.clearance_privileged) json["clearance"] = {{"m", mission.planner.clearance_m}, {"auto", true}, {"privileged", true}};
   json["minimum_clearance_m"] = number(totals.least_clearance);
   json["final_pose"] = {{"x_m", pose.position.x}, {"y_m", pose.position.y}, {"yaw_deg", degrees(pose.yaw)}};
+  if (mission.vehicle.flies()) {
+    json["final_pose"]["z_m"] = simulation.vehicle().z;
+    const FlightModel& model = simulation.stage().flight;
+    json["flight"] = {{"model", model.rigid_body ? "rigid_body" : "kinematic"}, {"because", model.reason}, {"on_floor", simulation.vehicle().on_floor}};
+  }
   json["steps"] = simulation.steps();
   json["scans"] = totals.scans;
   json["rays"] = totals.rays;
@@ -139,7 +145,11 @@ std::string timing_json(const Simulation& simulation, double wall_start_s, doubl
   json["simulated_time_s"] = simulation.time();
   json["realtime_factor"] = wall_run_s > 0.0 ? number(simulation.time() / wall_run_s) : Json(nullptr);
   json["phases_s"] = {{"trace", times.trace}, {"map", times.map}, {"plan", times.plan}, {"contact", times.contact},
-                      {"other", wall_run_s - times.trace - times.map - times.plan - times.contact}};
+                      {"other", wall_run_s - times.trace - times.map - times.plan - times.contact - times.sar}};
+  if (const SarImage* sar = simulation.sar(); sar && sar->pixels_added() > 0) {
+    json["phases_s"]["sar"] = times.sar;
+    json["sar_ns_per_pixel"] = 1e9 * times.sar / static_cast<double>(sar->pixels_added());
+  }
   if (const auto scans = simulation.totals().scans; simulation.mission().map.enabled && scans > 0) json["map_ms_per_scan"] = 1e3 * times.map / static_cast<double>(scans);
   if (const auto cells = simulation.map().cells_updated(); cells > 0) json["map_ns_per_cell"] = 1e9 * times.map / static_cast<double>(cells);
   return json.dump(2) + "\n";
@@ -161,6 +171,9 @@ Result<Done> write_outputs(const std::filesystem::path& folder, const Simulation
   for (const MapFormat& format : further_formats())
     if (!wanted(format)) stale.insert(stale.end(), format.files.begin(), format.files.end());
   if (!score) stale.emplace_back("score.json");
+  const auto sar = report_sar(simulation);  // an error is that there is nothing to report
+  for (const std::string& name : sar_files())
+    if (!sar || (!sar->fusion && name.starts_with("map"))) stale.push_back(name);
   for (const std::string& name : stale) std::filesystem::remove(folder / name, ignored);
   std::vector<Result<Done>> written;
   written.push_back(write_file(folder / "mission.toml", write_mission(simulation.mission())));
@@ -176,6 +189,7 @@ Result<Done> write_outputs(const std::filesystem::path& folder, const Simulation
   }
   if (output.picture) written.push_back(write_map_picture(folder / "map.png", simulation, trajectory));
   if (output.path_picture) written.push_back(write_path_picture(folder / "path.png", simulation, trajectory));
+  if (sar) written.push_back(write_sar(folder, simulation, *sar));
   if (score) written.push_back(write_file(folder / "score.json", score_json(*score)));
   written.push_back(write_file(folder / "timing.json", timing_json(simulation, wall_start_s, wall_run_s)));
   written.push_back(write_file(folder / "result.json", result_json(simulation, score)));  // last: where it is, the rest is

@@ -40,7 +40,16 @@ Pose2 start_pose(const Mission& mission) { return {{mission.start.x_m, mission.s
 }  // namespace
 
 VehicleLimits vehicle_limits(const Mission& mission) {
-  return mission.vehicle.limits(std::max(mission.step_s, 1.0 / mounted(mission.sensors[bumper_sensors(mission).front()]).rate_hz));
+  VehicleLimits limits = mission.vehicle.limits(std::max(mission.step_s, 1.0 / mounted(mission.sensors[bumper_sensors(mission).front()]).rate_hz));
+  const VehicleSpec& vehicle = mission.vehicle;
+  if (vehicle.flies()) limits.flight = FlightLimits{mission.start.z_m, vehicle.climb_rate_max_m_s, vehicle.landing_speed_max_m_s, vehicle.velocity_time_s};
+  return limits;
+}
+
+FlightModel flight_model(const Mission& mission) {
+  double speed = mission.planner.speed_m_s.value_or(mission.vehicle.speed_max_m_s);
+  if (planner_needs(mission.planner.name) == PlannerNeeds::waypoints && !mission.planner.waypoint_speeds_m_s.empty()) speed = *std::ranges::max_element(mission.planner.waypoint_speeds_m_s);
+  return choose_flight_model(mission.vehicle, speed);
 }
 
 const char* to_string(Verdict::Kind kind) {
@@ -67,11 +76,14 @@ Result<Simulation> Simulation::create(const Mission& mission, World world) {
 
 Result<Simulation> Simulation::create(const Mission& given, Scene scene) {
   const Mission mission = with_clearance(given, scene.world());
+  const FlightModel flight = mission.vehicle.flies() ? flight_model(mission) : FlightModel{};
+  if (mission.vehicle.flies())
+    if (const auto fault = vehicle_fault(mission.vehicle, flight, mission.step_s)) return Error{*fault};
   std::vector<std::shared_ptr<const Sensor>> sensors;
   for (const SensorSpec& spec : mission.sensors) sensors.push_back(make_sensor(spec, static_cast<std::uint16_t>(sensors.size())));
   auto planner = make_planner(mission.planner, vehicle_limits(mission), start_pose(mission));
   if (!planner) return planner.error();
-  Simulation simulation(std::make_shared<const Stage>(Stage{mission, std::move(scene), std::move(sensors), bumper_sensors(mission)}), std::move(*planner));
+  Simulation simulation(std::make_shared<const Stage>(Stage{mission, std::move(scene), std::move(sensors), bumper_sensors(mission), mission.sar.enabled ? sar_sensor(mission) : std::nullopt, flight}), std::move(*planner));
   if (!mission.initial_map_file.empty()) {
     ProbabilityReading reading;
     if (mission.initial_map_file.extension() == ".npy") reading.cell_size = mission.map.resolution_m;  // it has none of its own
@@ -89,11 +101,15 @@ Simulation::Simulation(std::shared_ptr<const Stage> stage, std::unique_ptr<Plann
       bumpers_(make_bumpers(stage_->mission)),
       readers_(stage_->sensors.size()),
       map_(stage_->mission.map),
+      sar_(begin_sar(stage_->mission)),
       scans_(stage_->sensors.size()),
       scan_counts_(stage_->sensors.size()),
       scan_estimates_(stage_->sensors.size()),
       scene_(stage_->scene) {
   vehicle_.pose = start_pose(stage_->mission);
+  vehicle_.z = stuck_z_ = stage_->mission.start.z_m;
+  vehicle_.attitude = Pose::planar(0.0, 0.0, 0.0, vehicle_.pose.yaw).orientation;
+  vehicle_.on_floor = stage_->mission.vehicle.flies() && vehicle_.z <= 0.0;
   stuck_pose_ = vehicle_.pose;
   place_ = vehicle_.pose.position;
   clearance_ = scene_.clearance(stage_->mission.vehicle.hull(), vehicle_pose().position, infinity);
@@ -112,6 +128,7 @@ Simulation::Simulation(const Simulation& other)
       contour_(other.contour_),
       readers_(other.readers_),
       map_(other.map_),
+      sar_(other.sar_),
       scans_(other.scans_),
       scan_counts_(other.scan_counts_),
       scan_estimates_(other.scan_estimates_),
@@ -124,6 +141,7 @@ Simulation::Simulation(const Simulation& other)
       times_(other.times_),
       verdict_(other.verdict_),
       stuck_pose_(other.stuck_pose_),
+      stuck_z_(other.stuck_z_),
       stuck_step_(other.stuck_step_),
       place_(other.place_),
       place_step_(other.place_step_) {}
@@ -133,9 +151,14 @@ Simulation& Simulation::operator=(const Simulation& other) {
   return *this;
 }
 
-Pose Simulation::in_space(const Pose2& pose) const { return Pose::planar(pose.position.x, pose.position.y, stage_->mission.start.z_m, pose.yaw); }
+Pose Simulation::in_space(const Pose2& pose) const {
+  Pose space = Pose::planar(pose.position.x, pose.position.y, vehicle_.z, pose.yaw);
+  if (stage_->mission.vehicle.flies()) space.orientation = space.orientation * vehicle_.tilt();
+  return space;
+}
 
 Platform Simulation::platform() const {
+  if (stage_->mission.vehicle.flies()) return {vehicle_pose(), vehicle_.velocity, vehicle_.attitude * vehicle_.rates};
   return {vehicle_pose(), vehicle_.speed * glm::dvec3(direction(vehicle_.pose.yaw), 0.0), {0.0, 0.0, vehicle_.turn_rate}};
 }
 
@@ -177,6 +200,10 @@ void Simulation::sense() {
       const Stopwatch watch(times_.map);
       map_.integrate(scans_[i], in_space(estimate()));
     }
+    if (stage_->sar_sensor == i) {
+      const Stopwatch watch(times_.sar);
+      sar_->add(scans_[i], platform().pose * Pose{scans_[i].mount_position, scans_[i].mount_orientation});
+    }
   }
   if (decides) decide();
 }
@@ -205,7 +232,7 @@ void Simulation::decide() {
   }
   bumpers_.read(contour_);
   if (manual_) return;
-  decision_ = planner_->decide({time(), now, vehicle_.speed, vehicle_.turn_rate, contour_, bumpers_});
+  decision_ = planner_->decide({time(), now, vehicle_.speed, vehicle_.turn_rate, contour_, bumpers_, vehicle_.lateral(), vehicle_.z, vehicle_.velocity.z});
   ++totals_.decisions;
   switch (decision_.outcome) {
     case Outcome::running: break;
@@ -216,6 +243,11 @@ void Simulation::decide() {
 }
 
 void Simulation::move() {
+  if (stage_->mission.vehicle.flies()) fly_on();
+  else drive_on();
+}
+
+void Simulation::drive_on() {
   const Mission& mission = stage_->mission;
   const Arc arc = vehicle_.step(decision_.command, mission.step_s, mission.vehicle);
   const double length = std::abs(arc.speed) * mission.step_s;
@@ -259,16 +291,17 @@ void Simulation::check_limits() {
 void Simulation::check_progress() {
   const LimitSpec& limits = stage_->mission.limits;
   const auto since = [&](std::uint64_t step) { return static_cast<double>(steps_ - step) * stage_->mission.step_s; };
-  const bool moved = manual_ || glm::distance(vehicle_.pose.position, stuck_pose_.position) > 0.05 || std::abs(wrap_angle(vehicle_.pose.yaw - stuck_pose_.yaw)) > radians(5.0);
+  const bool moved = manual_ || decision_.waiting || std::abs(vehicle_.z - stuck_z_) > 0.05 || glm::distance(vehicle_.pose.position, stuck_pose_.position) > 0.05 || std::abs(wrap_angle(vehicle_.pose.yaw - stuck_pose_.yaw)) > radians(5.0);
   if (moved) {
     stuck_pose_ = vehicle_.pose;
+    stuck_z_ = vehicle_.z;
     stuck_step_ = steps_;
   } else if (since(stuck_step_) >= limits.stuck_s) {
     return stop(fmt::format("stuck for {} s: {}", limits.stuck_s, decision_.state));
   }
   // One that turns for ever, or twitches, gets to no new place. Turning to look takes seconds, and a vehicle too slow for a quarter of a metre in that time is asked for less.
   const double patience = 4.0 * limits.stuck_s, speed = stage_->mission.planner.speed_m_s.value_or(stage_->mission.vehicle.speed_max_m_s);
-  if (manual_ || glm::distance(vehicle_.pose.position, place_) > std::min(0.25, 0.25 * patience * std::min(speed, stage_->mission.vehicle.speed_max_m_s))) {
+  if (manual_ || decision_.waiting || (stage_->mission.vehicle.flies() && std::abs(vehicle_.velocity.z) > 0.02) || glm::distance(vehicle_.pose.position, place_) > std::min(0.25, 0.25 * patience * std::min(speed, stage_->mission.vehicle.speed_max_m_s))) {
     place_ = vehicle_.pose.position;
     place_step_ = steps_;
   } else if (since(place_step_) >= patience) {

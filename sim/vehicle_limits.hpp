@@ -7,4 +7,7 @@ namespace thicket {
 
 VehicleLimits vehicle_limits(const Mission& mission);
 
+/// The model of a quadrotor that flies this mission.
+FlightModel flight_model(const Mission& mission);
+
 }  // namespace thicket

@@ -20,7 +20,7 @@ View* find(const std::vector<std::unique_ptr<View>>& views, const char* name) {
 
 std::vector<std::unique_ptr<View>> make_views() {
   std::vector<std::unique_ptr<View>> views;
-  for (auto* make : {make_world_view, make_space_view, make_map_view, make_radar_view, make_mission_view, make_edit_view, make_planner_view, make_plots_view, make_profiler_view}) views.push_back(make());
+  for (auto* make : {make_world_view, make_space_view, make_map_view, make_radar_view, make_sar_view, make_mission_view, make_edit_view, make_planner_view, make_plots_view, make_profiler_view}) views.push_back(make());
   return views;
 }
 
@@ -39,7 +39,7 @@ Workbench::Workbench(Runner& runner, Settings settings, bool still) : runner_(ru
     return p;
   };
   left_ = pane({"world", "3d"}, settings_.left_view);
-  upper_ = pane({"map", "radar", "mission", "edit"}, settings_.upper_view);
+  upper_ = pane({"map", "radar", "sar", "mission", "edit"}, settings_.upper_view);
   lower_ = pane({"planner", "plots", "profiler"}, settings_.lower_view);
 }
 
@@ -67,10 +67,14 @@ void Workbench::drive(const Snapshot& now, const Stick& stick) {
   if (!now.simulation) return;
   by_hand_ = now.simulation->driven_by_hand() && (by_hand_ || !driving_);
   const VehicleSpec& vehicle = now.simulation->mission().vehicle;
-  const Command command = hand_command(stick, vehicle.speed_max_m_s, radians(vehicle.turn_rate_max_deg_s), chords_);
-  if (command.speed != 0.0 || command.turn_rate != 0.0) {
+  // What flies is flown by hand at a speed that a room has space for, and down so gently that the floor is a landing.
+  const double fast = vehicle.flies() ? std::min(vehicle.speed_max_m_s, 1.0) : vehicle.speed_max_m_s;
+  const double climb = vehicle.flies() ? std::min(vehicle.climb_rate_max_m_s, 0.9 * vehicle.landing_speed_max_m_s) : 0.0;
+  const Command command = hand_command(stick, fast, radians(vehicle.turn_rate_max_deg_s), chords_, climb);
+  const auto same = [](const Command& a, const Command& b) { return a.speed == b.speed && a.turn_rate == b.turn_rate && a.lateral == b.lateral && a.climb == b.climb; };
+  if (!same(command, Command{})) {
     // Each change is a thing that the person did, and kept as such: not one a frame.
-    if (!driving_ || command.speed != last_command_.speed || command.turn_rate != last_command_.turn_rate) runner_.post(Drive{command});
+    if (!driving_ || !same(command, last_command_)) runner_.post(Drive{command});
     if (!driving_ && !now.playing) say(false, fmt::format("time stands still: {} plays", key_of(Deed::play)));
     driving_ = true;
     last_command_ = command;
@@ -103,7 +107,7 @@ void Workbench::act(Deed deed, const Snapshot& now) {
       if (!now.simulation) return;
       by_hand_ = !now.simulation->driven_by_hand();
       runner_.post(Drive{by_hand_ ? std::optional(Command{}) : std::nullopt});
-      return say(false, by_hand_ ? "driven by hand: W A S D or the left stick of a gamepad" : "the planner drives");
+      return say(false, by_hand_ ? now.simulation->mission().vehicle.flies() ? "flown by hand: W A S D, Q and E sideways, R up, F down" : "driven by hand: W A S D or the left stick of a gamepad" : "the planner drives");
     case Deed::next_view: {
       const auto shown = std::find_if(upper_.views.begin(), upper_.views.end(), [&](const View* view) { return view->name() == *upper_.shown; });
       if (upper_.views.empty()) return;
@@ -124,7 +128,11 @@ void Workbench::act(Deed deed, const Snapshot& now) {
     case Deed::drive_forward:
     case Deed::drive_back:
     case Deed::drive_left:
-    case Deed::drive_right: return;
+    case Deed::drive_right:
+    case Deed::fly_up:
+    case Deed::fly_down:
+    case Deed::fly_left:
+    case Deed::fly_right: return;
   }
 }
 

@@ -45,6 +45,10 @@ void Workbench::draw_menu(const Snapshot& now) {
   const auto item = [&](const char* text, Deed deed, bool enabled = true) {
     if (ImGui::MenuItem(text, key_of(deed), false, enabled)) act(deed, now);
   };
+  const auto end_menu = [] {
+    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
+    ImGui::EndMenu();
+  };
   const bool there = now.simulation != nullptr;
   if (ImGui::BeginMenu("File")) {
     item("Open ...", Deed::open);
@@ -59,7 +63,7 @@ void Workbench::draw_menu(const Snapshot& now) {
     item(recorder_.running() ? "End video" : "Record video", Deed::record);
     ImGui::Separator();
     item("Quit", Deed::quit);
-    ImGui::EndMenu();
+    end_menu();
   }
   if (ImGui::BeginMenu("View")) {
     for (Pane* pane : {&left_, &upper_, &lower_}) {
@@ -71,7 +75,7 @@ void Workbench::draw_menu(const Snapshot& now) {
       ImGui::Separator();
     }
     item(settings_.dark ? "Light" : "Dark", Deed::light);
-    ImGui::EndMenu();
+    end_menu();
   }
   if (ImGui::BeginMenu("Run")) {
     item(now.playing ? "Pause" : "Play", Deed::play, there);
@@ -80,11 +84,11 @@ void Workbench::draw_menu(const Snapshot& now) {
     item("Faster", Deed::faster);
     item("Slower", Deed::slower);
     item(there && now.simulation->driven_by_hand() ? "Let the planner drive" : "Drive by hand", Deed::by_hand, there);
-    ImGui::EndMenu();
+    end_menu();
   }
   if (ImGui::BeginMenu("Help")) {
     item("Keys", Deed::help);
-    ImGui::EndMenu();
+    end_menu();
   }
   if (recorder_.running()) ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(palette(settings_.dark).warning), "recording %s", recorder_.file().filename().c_str());
   ImGui::EndMenuBar();
@@ -110,10 +114,14 @@ void Workbench::draw_transport(const Snapshot& now) {
   if (button(">", Deed::forward)) act(Deed::forward, now);
   draw_speed(now);
   std::uint64_t step = there ? now.simulation->steps() : 0;
-  const std::uint64_t first = now.first_step, last = std::max(now.newest_step, now.first_step + 1);
+  // Before the first step there is nowhere to go, and a grip of half the slider would say otherwise.
+  const bool nowhere = now.newest_step <= now.first_step;
+  const std::uint64_t first = now.first_step, last = nowhere ? first + 100 : now.newest_step;
   const std::string time = there ? fmt::format("{:.2f} s", now.simulation->time()) : "";
   ImGui::SetNextItemWidth(std::max(120.0f, 0.3f * ImGui::GetContentRegionAvail().x));
+  ImGui::BeginDisabled(nowhere && there);
   if (ImGui::SliderScalar("##scrubber", ImGuiDataType_U64, &step, &first, &last, time.c_str(), ImGuiSliderFlags_NoInput | ImGuiSliderFlags_AlwaysClamp) && there && step != now.simulation->steps()) runner_.post(SeekTo{step});
+  ImGui::EndDisabled();
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("any step that was, up to the newest");
   ImGui::SameLine();
   ImGui::EndDisabled();

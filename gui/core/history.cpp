@@ -9,6 +9,7 @@ constexpr std::size_t most_kept = 256;
 
 std::size_t bytes_of(const Simulation& s) {
   std::size_t bytes = 4096 + s.map().memory_bytes();
+  if (s.sar()) bytes += s.sar()->memory_bytes();
   for (const Scan& scan : s.scans())
     bytes += scan.beams.size() * sizeof(Beam) + scan.echoes.size() * sizeof(Echo) + scan.profiles.amplitude.size() * 2 * sizeof(float) + scan.profiles.iq.size() * sizeof(std::complex<float>);
   return bytes;

@@ -25,6 +25,10 @@ std::span<const KeyBinding> key_table() {
       {Deed::drive_left, GLFW_KEY_A, no, no, "A", "turn left, while held", no, true},
       {Deed::drive_back, GLFW_KEY_S, no, no, "S", "drive back, while held", no, true},
       {Deed::drive_right, GLFW_KEY_D, no, no, "D", "turn right, while held", no, true},
+      {Deed::fly_up, GLFW_KEY_R, no, no, "R", "climb, while held (a robot that flies)", no, true},
+      {Deed::fly_down, GLFW_KEY_F, no, no, "F", "sink, while held (a robot that flies)", no, true},
+      {Deed::fly_left, GLFW_KEY_Q, no, no, "Q", "fly to the left, while held (a robot that flies)", no, true},
+      {Deed::fly_right, GLFW_KEY_E, no, no, "E", "fly to the right, while held (a robot that flies)", no, true},
       {Deed::by_hand, GLFW_KEY_H, no, no, "H", "drive by hand only, or let the planner drive when no key is held"},
       {Deed::next_view, GLFW_KEY_TAB, no, no, "Tab", "the next view, on the right"},
       {Deed::open, GLFW_KEY_O, ctrl, no, "Ctrl+O", "open a mission, a world or a map"},
@@ -69,12 +73,17 @@ bool is_held(Deed deed, const Chords& chords) {
   return false;
 }
 
-Command hand_command(const Stick& stick, double speed_max, double turn_rate_max, const Chords& chords) {
+Command hand_command(const Stick& stick, double speed_max, double turn_rate_max, const Chords& chords, double climb_max) {
   const auto both = [&](Deed plus, Deed minus) { return (is_held(plus, chords) ? 1.0 : 0.0) - (is_held(minus, chords) ? 1.0 : 0.0); };
   const double forward = std::clamp(stick.forward + both(Deed::drive_forward, Deed::drive_back), -1.0, 1.0);
   const double left = std::clamp(stick.left + both(Deed::drive_left, Deed::drive_right), -1.0, 1.0);
   // Half the turn rate: at all of it nobody stops where they want to.
-  return {forward * speed_max, 0.5 * left * turn_rate_max};
+  Command command{forward * speed_max, 0.5 * left * turn_rate_max};
+  if (climb_max > 0.0) {
+    command.lateral = both(Deed::fly_left, Deed::fly_right) * speed_max;
+    command.climb = both(Deed::fly_up, Deed::fly_down) * climb_max;
+  }
+  return command;
 }
 
 }  // namespace thicket::gui

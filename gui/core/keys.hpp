@@ -14,7 +14,7 @@ namespace thicket::gui {
 /// What a key does.
 enum class Deed {
   play, back, forward, back_ten, forward_ten, reset, reload, faster, slower, by_hand, next_view, open, save_mission, save_mission_as, screenshot, record, export_map, light, help, quit,
-  drive_forward, drive_back, drive_left, drive_right,
+  drive_forward, drive_back, drive_left, drive_right, fly_up, fly_down, fly_left, fly_right,
 };
 
 struct KeyBinding {
@@ -42,7 +42,7 @@ void follow(Chords& chords, std::span<const KeyPress> pressed);
 /// Whether the key of a deed is held now, by itself.
 bool is_held(Deed deed, const Chords& chords = {});
 
-/// Where the keys that are held and the stick want the robot to go, as shares of its limits.
-Command hand_command(const Stick& stick, double speed_max, double turn_rate_max, const Chords& chords = {});
+/// Where the keys that are held and the stick want the robot to go, as shares of its limits. `climb_max`, m/s, is of one that flies, which goes sideways too; 0: it does not.
+Command hand_command(const Stick& stick, double speed_max, double turn_rate_max, const Chords& chords = {}, double climb_max = 0.0);
 
 }  // namespace thicket::gui

@@ -75,6 +75,27 @@ Result<Mission> with_key(const Mission& mission, const std::filesystem::path& mi
   return reconsidered_mission(mission, std::move(next), mission_file);
 }
 
+Result<Mission> with_sensor(const Mission& mission, const std::filesystem::path& mission_file, const std::string& preset) {
+  auto entry = parse_document("preset = " + toml_string(preset), "sensor");
+  if (!entry) return entry.error();
+  Faults faults;
+  SensorSpec sensor = read_sensor(*entry, faults);
+  if (!faults.none()) return faults.error();
+  const auto taken = [&](const std::string& name) { return std::ranges::any_of(mission.sensors, [&](const SensorSpec& other) { return mounted(other).name == name; }); };
+  const std::string name = mounted(sensor).name;
+  for (int i = 2; taken(mounted(sensor).name); ++i) mounted(sensor).name = name + std::to_string(i);
+  Mission next = mission;
+  next.sensors.push_back(std::move(sensor));
+  return reconsidered_mission(mission, std::move(next), mission_file);
+}
+
+Result<Mission> without_sensor(const Mission& mission, const std::filesystem::path& mission_file, std::size_t sensor) {
+  if (mission.sensors.size() < 2) return Error{"a robot without a sensor would see nothing: add another one first"};
+  Mission next = mission;
+  next.sensors.erase(next.sensors.begin() + static_cast<std::ptrdiff_t>(sensor));
+  return reconsidered_mission(mission, std::move(next), mission_file);
+}
+
 Mission defaults_of(const Mission& mission) {
   Mission defaults;
   for (const SensorSpec& sensor : mission.sensors) defaults.sensors.push_back(default_sensor(sensor_type(sensor)));
@@ -108,7 +129,7 @@ std::string first_value(const Key& key) {
 }
 
 bool matches(std::string_view search, std::string_view title, const Key& key) {
-  const std::string text = lower(title) + " " + lower(key.name) + " " + lower(key.help) + " " + lower(key.unit), wanted = lower(search);
+  const std::string text = lower(title) + "." + lower(key.name) + " " + lower(key.help) + " " + lower(key.unit), wanted = lower(search);
   for (std::size_t from = 0; from < wanted.size();) {
     const std::size_t end = std::min(wanted.find(' ', from), wanted.size());
     if (text.find(wanted.substr(from, end - from)) == std::string::npos) return false;

@@ -23,6 +23,11 @@ struct KeyPlace {
 /// The mission with one key typed, or (nothing typed) not given.
 Result<Mission> with_key(const Mission& mission, const std::filesystem::path& mission_file, KeyPlace at, const std::optional<std::string>& typed);
 
+/// The mission with one sensor more, at the end: a shipped preset (`sensor_presets`), under a name that no other has.
+Result<Mission> with_sensor(const Mission& mission, const std::filesystem::path& mission_file, const std::string& preset);
+/// The mission without its sensor of that place. The last one stays.
+Result<Mission> without_sensor(const Mission& mission, const std::filesystem::path& mission_file, std::size_t sensor);
+
 /// What a mission of nothing but defaults has there: as many sensors, of the same types.
 Mission defaults_of(const Mission& mission);
 
@@ -32,7 +37,7 @@ bool is_optional(const Key& key, const void* defaults);
 /// What an optional key begins with when it is given at last: 0 or the nearest that its range allows, as many as it takes.
 std::string first_value(const Key& key);
 
-/// Whether a word stands in the name of a key, its help, or the title of its section; letters' case does not count.
+/// Whether every word stands in the name of a key, its help, or the title of its section; letters' case does not count, and "planner.name" is found as the command line has it.
 bool matches(std::string_view search, std::string_view title, const Key& key);
 
 /// What was saved.

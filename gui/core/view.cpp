@@ -23,7 +23,7 @@ Palette palette(bool dark) {
   p.trail = rgb(86, 180, 233, 200);
   p.start = rgb(0, 114, 178);
   p.goal = rgb(0, 158, 115);
-  p.mark = rgb(204, 121, 167);
+  p.mark = dark ? rgb(204, 121, 167) : rgb(150, 60, 110);
   p.contact = rgb(213, 94, 0);
   p.ray = rgb(230, 159, 0, 70);
   p.ray_through = rgb(0, 158, 115, 120);

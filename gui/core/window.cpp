@@ -111,15 +111,19 @@ struct Session {
 
 Result<Done> show_window(const WindowOptions& options) {
   if (const std::string why = no_screen(); !why.empty()) return Error{why};
+  // What the command line names must be there; what is opened later may be wrong, and leaves what was open.
+  Runner runner;
+  if (!options.file.empty()) {
+    runner.post(Open{options.file, options.overrides});
+    if (const auto now = runner.settled(); !now->simulation) return Error{now->message.text};
+  }
   const std::filesystem::path remembered = settings_file();
   const Settings settings = remembered.empty() ? Settings{} : read_settings(remembered);
   auto platform = open_screen("Thicket", {settings.width, settings.height});
   if (!platform) return platform.error();
   if (!settings.imgui.empty()) ImGui::LoadIniSettingsFromMemory(settings.imgui.c_str(), settings.imgui.size());
-  Runner runner;
   Workbench bench(runner, settings);
   if (options.file.empty()) bench.ask_for_a_file();
-  else runner.post(Open{options.file, options.overrides});
   Session session{runner, **platform, bench, {}, 0};
   session.run();
 

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "clicks.hpp"
 #include "gl_textures.hpp"
 #include "platform.hpp"
 
@@ -59,8 +60,9 @@ class Screen final : public Platform {
   }
 
   bool poll(double wait) override {
-    happened_ = false;
-    if (wait > 0.0) glfwWaitEventsTimeout(wait);
+    // What was not shown yet of the mouse's buttons waits for no other event.
+    happened_ = !clicks_.empty();
+    if (wait > 0.0 && !happened_) glfwWaitEventsTimeout(wait);
     else glfwPollEvents();
     return happened_;
   }
@@ -68,15 +70,19 @@ class Screen final : public Platform {
   void begin() override {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    clicks_.next(ImGui::GetIO());
     // A key that was let go before this frame is down for the length of it, so that fields and views see it too.
     bool* const down = ImGui::GetIO().KeysDown;
     for (const int key : tapped_)
       if (glfwGetKey(window_, key) == GLFW_RELEASE) down[key] = false;
     tapped_.clear();
+    const bool ctrl = glfwGetKey(window_, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS || glfwGetKey(window_, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
+    ImGui::GetIO().KeyCtrl = ctrl;
     for (const KeyPress& press : pressed_)
       if (press.key >= 0 && press.key <= GLFW_KEY_LAST && !down[press.key]) {
         down[press.key] = true;
         tapped_.push_back(press.key);
+        if (press.ctrl) ImGui::GetIO().KeyCtrl = true;
       }
     ImGui::NewFrame();
   }
@@ -119,7 +125,12 @@ class Screen final : public Platform {
       if (action != GLFW_RELEASE) self(w)->pressed_.push_back({key, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0, (mods & (GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0, action == GLFW_REPEAT});
     });
     glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned) { self(w)->happened_ = true; });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { self(w)->happened_ = true; });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
+      self(w)->happened_ = true;
+      double x = 0.0, y = 0.0;
+      glfwGetCursorPos(w, &x, &y);
+      self(w)->clicks_.note(button, action == GLFW_PRESS, {static_cast<float>(x), static_cast<float>(y)});
+    });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { self(w)->happened_ = true; });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { self(w)->happened_ = true; });
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { self(w)->happened_ = true; });
@@ -135,6 +146,7 @@ class Screen final : public Platform {
   std::optional<GlTextures> textures_;
   std::vector<std::filesystem::path> dropped_;
   std::vector<KeyPress> pressed_;
+  Clicks clicks_;
   std::vector<int> tapped_;  ///< keys that are down in this frame only
   std::string title_;
   bool happened_ = false;

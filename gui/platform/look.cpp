@@ -28,6 +28,7 @@ void make_context(double scale) {
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // the settings keep what it would
   io.LogFilename = nullptr;
+  io.MouseDoubleClickTime = 0.45f;  // between frames, of which a busy computer shows few
   const fs::path file = letters();
   // What the views write: Latin, Greek, arrows, mathematical signs.
   static const ImWchar ranges[] = {0x20, 0xFF, 0x370, 0x3FF, 0x2010, 0x2027, 0x2070, 0x209C, 0x2190, 0x21FF, 0x2200, 0x22FF, 0x25A0, 0x25FF, 0};
@@ -44,6 +45,10 @@ void use_look(bool dark, double scale) {
   style.WindowRounding = style.ChildRounding = 0.0f;
   style.FrameRounding = style.TabRounding = style.GrabRounding = 3.0f;
   style.WindowBorderSize = 0.0f;
+  // White fields on a light grey need an edge.
+  if (!dark) style.FrameBorderSize = 1.0f;
+  // Windows over others (the keys) are read, not looked through.
+  style.Colors[ImGuiCol_WindowBg].w = 1.0f;
   style.ScaleAllSizes(static_cast<float>(scale));
   ImGui::GetStyle() = style;
 }

@@ -52,11 +52,10 @@ void box_with_words(const Frame& frame, ImVec2 low, const std::string& words, Im
 
 void MapView::toolbar() {
   if (ImGui::SmallButton(probability_ ? "probability (L)" : "legend (L)")) probability_ = !probability_;
-  ImGui::SameLine();
+  beside_if_room("score (C)", true);
   ImGui::Checkbox("score (C)", &score_);
-  ImGui::SameLine();
+  beside_if_room("robot and way (0)", true);
   ImGui::Checkbox("robot and way (0)", &over_);
-  ImGui::SameLine();
   controls_.buttons();
 }
 
@@ -68,19 +67,31 @@ void MapView::draw_legend(const Frame& frame, ImDrawList& draw) const {
   constexpr Entry legend[] = {{IM_COL32(0x2f, 0x4b, 0x8f, 255), "never sensed"}, {IM_COL32(255, 255, 255, 255), "sensed"}, {IM_COL32(0xc9, 0xcc, 0xd1, 255), "clear, surely"}, {IM_COL32(0x93, 0xb4, 0x8c, 255), "sensed through"}, {IM_COL32(0x11, 0x11, 0x11, 255), "obstacle"}};
   constexpr Entry ramp[] = {{IM_COL32(0x2f, 0x4b, 0x8f, 255), "never sensed"}, {IM_COL32(255, 255, 255, 255), "0"}, {IM_COL32(191, 191, 191, 255), "0.25"}, {IM_COL32(127, 127, 127, 255), "0.5"}, {IM_COL32(64, 64, 64, 255), "0.75"}, {IM_COL32(0, 0, 0, 255), "1 matter"}, {IM_COL32(0x76, 0xa3, 0x6c, 255), "greenish: sensed through"}};
   const float line = ImGui::GetFontSize();
-  float width = 12.0f;
   const auto each = [&](auto use) {
     if (probability_) for (const Entry& e : ramp) use(e);
     else for (const Entry& e : legend) use(e);
   };
-  each([&](const Entry& e) { width += line + 18.0f + ImGui::CalcTextSize(e.words).x; });
-  ImVec2 at{controls_.camera.low.x + 10.0f, controls_.camera.low.y + 8.0f};
-  draw.AddRectFilled({at.x - 5.0f, at.y - 4.0f}, {at.x + width, at.y + line + 4.0f}, with_alpha(frame.colours.background, 0.85), 3.0f);
+  const ImVec2 from{controls_.camera.low.x + 10.0f, controls_.camera.low.y + 8.0f};
+  const float most = controls_.camera.size.x - 20.0f;
+  // Once to see how many lines they take, and once to draw them.
+  float widest = 0.0f;
+  ImVec2 at = from;
+  const auto place = [&](const Entry& e) {
+    const float width = line + 5.0f + ImGui::CalcTextSize(e.words).x;
+    if (at.x > from.x && at.x + width > from.x + most) at = {from.x, at.y + line + 5.0f};
+    const ImVec2 there = at;
+    widest = std::max(widest, at.x + width - from.x);
+    at.x += width + 13.0f;
+    return there;
+  };
+  each(place);
+  draw.AddRectFilled({from.x - 5.0f, from.y - 4.0f}, {from.x + widest + 7.0f, at.y + line + 4.0f}, with_alpha(frame.colours.background, 0.85), 3.0f);
+  at = from;
   each([&](const Entry& e) {
-    draw.AddRectFilled(at, {at.x + line, at.y + line}, e.colour);
-    draw.AddRect(at, {at.x + line, at.y + line}, frame.colours.faint);
-    draw.AddText({at.x + line + 5.0f, at.y}, frame.colours.text, e.words);
-    at.x += line + 18.0f + ImGui::CalcTextSize(e.words).x;
+    const ImVec2 there = place(e), end{there.x + line, there.y + line};
+    draw.AddRectFilled(there, end, e.colour);
+    draw.AddRect(there, end, frame.colours.faint);
+    draw.AddText({end.x + 5.0f, there.y}, frame.colours.text, e.words);
   });
 }
 
@@ -108,7 +119,7 @@ void MapView::judge(const Frame& frame) {
 void MapView::draw_score(const Frame& frame, ImDrawList& draw) const {
   std::string words = judged_.words.empty() ? std::string("judging ...") : fmt::format("against the truth, at {:.1f} s\n{}", judged_.time, judged_.words);
   while (!words.empty() && words.back() == '\n') words.pop_back();
-  box_with_words(frame, {controls_.camera.low.x + 12.0f, controls_.camera.low.y + 2.6f * ImGui::GetFontSize()}, words, draw);
+  box_with_words(frame, {controls_.camera.low.x + 12.0f, controls_.camera.low.y + 4.2f * ImGui::GetFontSize()}, words, draw);
 }
 
 void MapView::draw(const Frame& frame) {
@@ -126,12 +137,15 @@ void MapView::draw(const Frame& frame) {
   const ImVec2 high{camera.low.x + camera.size.x, camera.low.y + camera.size.y};
   draw.PushClipRect(camera.low, high, true);
   map_.draw(frame, camera, probability_, 1.0, draw);
-  controls_.draw_grid(frame, draw);
+  // The map's ground is dark blue, whatever the window's is.
+  static const Palette on_blue = palette(true);
+  const Frame over{frame.now, on_blue, frame.textures, frame.desk, frame.post, frame.scale, frame.still};
+  controls_.draw_grid(over, draw);
   if (over_) {
-    draw_trail(frame, camera, draw);
-    draw_marks(frame, camera, draw);
-    draw_places(frame, camera, draw);
-    draw_robot(frame, camera, draw);
+    draw_trail(over, camera, draw);
+    draw_marks(over, camera, draw);
+    draw_places(over, camera, draw);
+    draw_robot(over, camera, draw);
   }
   draw_legend(frame, draw);
   if (score_) {
@@ -139,7 +153,7 @@ void MapView::draw(const Frame& frame) {
     draw_score(frame, draw);
   }
   if (!frame.now.simulation->mission().map.enabled) box_with_words(frame, {camera.low.x + 12.0f, camera.low.y + 0.5f * camera.size.y}, "This mission makes no map: set map.enabled = true.", draw);
-  controls_.draw_scale_bar(frame, draw);
+  controls_.draw_scale_bar(over, draw);
   draw_readout(frame, draw);
   draw.PopClipRect();
 }

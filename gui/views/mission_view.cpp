@@ -17,6 +17,9 @@ namespace {
 /// Whether a key says which world it is: then the run goes on in that.
 bool concerns_world(const Key& key, std::size_t part) { return part == 0 && key.name.starts_with("world"); }
 
+/// Where a refused change of the list of sensors is told.
+constexpr const char* new_sensor = "new sensor";
+
 class MissionView final : public View {
  public:
   const char* name() const override { return "Mission"; }
@@ -27,6 +30,9 @@ class MissionView final : public View {
   void draw_part(const Frame& frame, std::size_t part, bool searching);
   void draw_key(const Frame& frame, KeyPlace at, const Key& key);
   void change(const Frame& frame, KeyPlace at, const std::optional<std::string>& typed);
+  void draw_new_sensor(const Frame& frame);
+  void change_sensors(const Frame& frame, const Result<Mission>& next);
+  void show_refusal(const Frame& frame) const;
   void draw_saving(const Frame& frame);
   void save(const Frame& frame);
 
@@ -85,7 +91,8 @@ void MissionView::change(const Frame& frame, KeyPlace at, const std::optional<st
 
 void MissionView::draw_key(const Frame& frame, KeyPlace at, const Key& key) {
   const Value now = key.get(parts_[at.part].object), usual = key.get(default_parts_[at.part].object);
-  const bool changed = at.part < opened_parts_.size() && opened_parts_[at.part].section->keys.size() > at.key && key.get(opened_parts_[at.part].object) != now;
+  // (A sensor may have been added or removed: then another table stands there.)
+  const bool changed = at.part < opened_parts_.size() && opened_parts_[at.part].section == parts_[at.part].section && key.get(opened_parts_[at.part].object) != now;
   ImGui::PushID(static_cast<int>(at.key));
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
@@ -121,11 +128,34 @@ void MissionView::draw_key(const Frame& frame, KeyPlace at, const Key& key) {
   if (!refused_.empty() && refused_key_ == parts_[at.part].title + "." + key.name) {
     ImGui::TableNextRow();
     ImGui::TableSetColumnIndex(1);
-    ImGui::PushStyleColor(ImGuiCol_Text, frame.colours.warning);
-    ImGui::TextWrapped("%s", refused_.c_str());
-    ImGui::PopStyleColor();
+    show_refusal(frame);
   }
   ImGui::PopID();
+}
+
+void MissionView::show_refusal(const Frame& frame) const {
+  ImGui::PushStyleColor(ImGuiCol_Text, frame.colours.warning);
+  ImGui::TextWrapped("%s", refused_.c_str());
+  ImGui::PopStyleColor();
+}
+
+void MissionView::change_sensors(const Frame& frame, const Result<Mission>& next) {
+  refused_.clear();
+  posted_at_ = frame.now.message.number;
+  refused_key_ = new_sensor;
+  if (next) frame.post(ChangeMission{*next});
+  else refused_ = next.error().message;
+}
+
+void MissionView::draw_new_sensor(const Frame& frame) {
+  ImGui::SetNextItemWidth(16.0f * ImGui::GetFontSize());
+  if (ImGui::BeginCombo("##new sensor", "add a sensor ...")) {
+    for (const std::string& preset : sensor_presets())
+      if (ImGui::Selectable(preset.c_str())) change_sensors(frame, with_sensor(mission_, file_, preset));
+    ImGui::EndCombo();
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("one of the shipped presets; its keys can be changed then");
+  if (!refused_.empty() && refused_key_ == new_sensor) show_refusal(frame);
 }
 
 void MissionView::draw_part(const Frame& frame, std::size_t part, bool searching) {
@@ -141,6 +171,8 @@ void MissionView::draw_part(const Frame& frame, std::size_t part, bool searching
   else ImGui::SetNextItemOpen(part == 0 || p.title == "planner", ImGuiCond_Once);
   const bool open = ImGui::CollapsingHeader(p.title.c_str());
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", p.section->help.c_str());
+  const std::size_t others = parts_.size() - mission_.sensors.size();
+  if (open && part >= others && ImGui::SmallButton("remove this sensor")) change_sensors(frame, without_sensor(mission_, file_, part - others));
   if (!open || !ImGui::BeginTable("keys", 3, ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingStretchProp)) return;
   ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthStretch, 0.40f);
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.45f);
@@ -203,6 +235,7 @@ void MissionView::draw(const Frame& frame) {
       draw_part(frame, part, searching);
       ImGui::PopID();
     }
+    if (!searching) draw_new_sensor(frame);
   }
   ImGui::EndChild();
 }

@@ -31,6 +31,9 @@ ImU32 ramp(double share, double alpha);
 /// A key of the keyboard, by its letter or digit, pressed just now while the mouse is over the plan and nobody writes.
 bool key_pressed(char key);
 
+/// What comes next stands beside the last button if its words have room there, and below it if not. `box`: it is a checkbox.
+void beside_if_room(const char* words, bool box = false);
+
 /// The camera of a view and what moves it.
 class PlanControls {
  public:
@@ -78,8 +81,27 @@ struct Footprint {
   bool contains(const glm::dvec2& point) const;
 };
 Footprint footprint_of(const Solid& solid);
+/// Of a mesh only the rectangle around it, at once.
+Footprint rough_footprint_of(const Solid& solid);
 
-/// The solids of a world from above. Made anew when the world is another.
+/// Something that takes long, computed beside.
+template <class T>
+class Beside {
+ public:
+  bool busy() const { return future_.valid(); }
+  void start(std::function<T()> work) { future_ = std::async(std::launch::async, std::move(work)); }
+  /// Takes what is finished; waits for it if told so. Whether there is something new.
+  bool poll(bool wait, T& result) {
+    if (!future_.valid() || (!wait && future_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)) return false;
+    result = future_.get();
+    return true;
+  }
+
+ private:
+  std::future<T> future_;
+};
+
+/// The solids of a world from above. Made anew when the world is another. Meshes of many triangles are made beside: until then there is a rectangle.
 class PlanSolids {
  public:
   void draw(const Frame& frame, const PlanCamera& camera, ImDrawList& draw);
@@ -87,21 +109,29 @@ class PlanSolids {
   std::optional<std::uint32_t> at(const Snapshot& now, const glm::dvec2& point);
 
  private:
+  using MeshKey = std::tuple<std::shared_ptr<const Mesh>, double, double, double>;  ///< scale, pitch, roll
   struct Entry {
     std::uint32_t solid = 0;
     std::shared_ptr<const Footprint> shape;
     ImU32 fill = 0, edge = 0;
     bool overhead = false;
     double top = 0.0;
+    std::optional<MeshKey> waits_for = std::nullopt;  ///< its shape is being made
   };
   struct Mask {
     int width = 0, height = 0;
     std::vector<std::uint32_t> pixels;
     bool sent = false;  ///< to the graphics card
   };
-  using MeshKey = std::tuple<std::shared_ptr<const Mesh>, double, double, double>;  ///< scale, pitch, roll
+  struct Made {
+    MeshKey key;
+    Footprint shape;
+    Mask mask;
+  };
   void make(const Snapshot& now);
-  void make_mask(Footprint& shape);
+  std::shared_ptr<const Footprint> mesh_shape(const Solid& solid, const MeshKey& key, Entry& entry);
+  void take_made(bool wait);
+  static Mask mask_of(Footprint& shape);
   void draw_one(const Frame& frame, const PlanCamera& camera, const Entry& entry, ImDrawList& draw);
 
   std::uint64_t revision_ = 0;
@@ -109,7 +139,10 @@ class PlanSolids {
   std::vector<Entry> entries_;
   std::unordered_map<std::string, Mask> masks_;
   std::map<MeshKey, std::shared_ptr<const Footprint>> meshes_;  ///< kept from world to world: an edited one has most of its meshes still
+  std::map<MeshKey, std::shared_ptr<const Footprint>> rough_;   ///< until they are made
   int masks_made_ = 0;
+  std::vector<std::pair<MeshKey, Solid>> wanted_;               ///< whose footprints are to be made
+  Beside<std::vector<Made>> making_;
 };
 
 /// The occupancy map as pictures, of which only squares that have changed go to the graphics card.
@@ -141,23 +174,6 @@ class MapPicture {
   bool probability_ = false;
   std::vector<Chunk> chunks_;
   std::size_t sent_ = 0;
-};
-
-/// Something that takes long, computed beside.
-template <class T>
-class Beside {
- public:
-  bool busy() const { return future_.valid(); }
-  void start(std::function<T()> work) { future_ = std::async(std::launch::async, std::move(work)); }
-  /// Takes what is finished; waits for it if told so. Whether there is something new.
-  bool poll(bool wait, T& result) {
-    if (!future_.valid() || (!wait && future_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)) return false;
-    result = future_.get();
-    return true;
-  }
-
- private:
-  std::future<T> future_;
 };
 
 /// Where matter really is at the sensors' height: its outline on the map's cells.

@@ -42,6 +42,12 @@ bool key_pressed(char key) {
   return !io.WantTextInput && !io.KeyCtrl && !io.KeyAlt && !io.KeySuper && ImGui::IsKeyPressed(static_cast<unsigned char>(key), false);
 }
 
+void beside_if_room(const char* words, bool box) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float width = ImGui::CalcTextSize(words).x + 2.0f * style.FramePadding.x + (box ? ImGui::GetFrameHeight() + style.ItemInnerSpacing.x : 0.0f);
+  if (ImGui::GetItemRectMax().x + style.ItemSpacing.x + width < ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x) ImGui::SameLine();
+}
+
 PlanExtent extent_of(const Snapshot& now) {
   PlanExtent all;
   const Simulation& simulation = *now.simulation;
@@ -79,10 +85,11 @@ void PlanControls::fit(const Frame& frame) {
 }
 
 void PlanControls::buttons() {
+  beside_if_room("Fit (F)");
   if (ImGui::SmallButton("Fit (F)")) wants_fit_ = true;
-  ImGui::SameLine();
+  beside_if_room("follow (T)", true);
   ImGui::Checkbox("follow (T)", &follow);
-  ImGui::SameLine();
+  beside_if_room("robot up (N)", true);
   if (ImGui::Checkbox("robot up (N)", &robot_up) && !robot_up) camera.up = 0.0;
 }
 

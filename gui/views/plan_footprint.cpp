@@ -111,9 +111,21 @@ Footprint footprint_of(const Solid& solid) {
   return shape;
 }
 
+Footprint rough_footprint_of(const Solid& solid) {
+  const auto& mesh = std::get<MeshSolid>(solid.shape);
+  const glm::dmat3 tilt = rotation_of(0.0, solid.pitch, solid.roll);
+  PlanExtent all;
+  for (const auto& v : mesh.mesh->vertices) all.hold(glm::dvec2(tilt * (mesh.scale * glm::dvec3(v))));
+  Footprint shape;
+  shape.low = all.low;
+  shape.high = all.high;
+  shape.rings.push_back({all.low, {all.high.x, all.low.y}, all.high, {all.low.x, all.high.y}});
+  return shape;
+}
+
 bool Footprint::contains(const glm::dvec2& point) const {
   if (point.x < low.x || point.y < low.y || point.x > high.x || point.y > high.y) return false;
-  if (!mask.empty()) return true;
+  if (!mask.empty() || (fills.empty() && discs.empty())) return true;
   for (const Disc& disc : discs)
     if (glm::distance(disc.centre, point) <= disc.radius) return true;
   return std::any_of(fills.begin(), fills.end(), [&](const Points& polygon) {

@@ -1,6 +1,7 @@
 // The solids of a world from above.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -34,12 +35,12 @@ void fill_triangle(const std::vector<glm::dvec2>& t, const glm::dvec2& low, doub
 }  // namespace
 
 /// A mesh of many triangles becomes a picture of the part of each pixel that it covers.
-void PlanSolids::make_mask(Footprint& shape) {
+PlanSolids::Mask PlanSolids::mask_of(Footprint& shape) {
   constexpr int side = 256, fine = 2;
   const glm::dvec2 size = shape.high - shape.low;
   const double pixel = std::max(size.x, size.y) / side;
-  if (!(pixel > 0.0)) return;
   Mask mask;
+  if (!(pixel > 0.0)) return mask;
   mask.width = std::max(1, static_cast<int>(std::ceil(size.x / pixel)));
   mask.height = std::max(1, static_cast<int>(std::ceil(size.y / pixel)));
   const int width = fine * mask.width, height = fine * mask.height;
@@ -53,8 +54,53 @@ void PlanSolids::make_mask(Footprint& shape) {
   shape.high = shape.low + glm::dvec2(mask.width, mask.height) * pixel;
   shape.fills.clear();
   shape.rings.clear();
-  shape.mask = "world mask " + std::to_string(masks_made_++);
-  masks_[shape.mask] = std::move(mask);
+  return mask;
+}
+
+/// The shape of a mesh, if it is known or soon made; else a rough one, and the true one is wanted.
+std::shared_ptr<const Footprint> PlanSolids::mesh_shape(const Solid& solid, const MeshKey& key, Entry& entry) {
+  if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
+  if (std::get<0>(key)->triangles.size() <= many_triangles) return meshes_[key] = std::make_shared<Footprint>(footprint_of(solid));
+  entry.waits_for = key;
+  auto& rough = rough_[key];
+  if (!rough) {
+    rough = std::make_shared<Footprint>(rough_footprint_of(solid));
+    wanted_.emplace_back(key, solid);
+  }
+  return rough;
+}
+
+/// Takes what was made beside, and lets make what is wanted.
+void PlanSolids::take_made(bool wait) {
+  for (std::vector<Made> made; making_.busy() || !wanted_.empty();) {
+    if (!making_.busy())
+      making_.start([wanted = std::exchange(wanted_, {})] {
+        std::vector<Made> result;
+        for (const auto& [key, solid] : wanted) {
+          Made one{key, footprint_of(solid), {}};
+          one.mask = mask_of(one.shape);
+          result.push_back(std::move(one));
+        }
+        return result;
+      });
+    if (!making_.poll(wait, made)) return;
+    for (Made& one : made) {
+      // (Of a world that is gone, nobody waits for it.)
+      const bool awaited = std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.waits_for == one.key; });
+      if (!awaited) continue;
+      if (one.mask.width > 0) {
+        one.shape.mask = "world mask " + std::to_string(masks_made_++);
+        masks_[one.shape.mask] = std::move(one.mask);
+      }
+      const auto shape = meshes_[one.key] = std::make_shared<Footprint>(std::move(one.shape));
+      rough_.erase(one.key);
+      for (Entry& entry : entries_)
+        if (entry.waits_for == one.key) {
+          entry.shape = shape;
+          entry.waits_for.reset();
+        }
+    }
+  }
 }
 
 void PlanSolids::make(const Snapshot& now) {
@@ -67,6 +113,8 @@ void PlanSolids::make(const Snapshot& now) {
   for (const SensorSpec& sensor : mission.sensors) head = std::max(head, mission.start.z_m + mounted(sensor).position_m.z);
   std::map<MeshKey, std::shared_ptr<const Footprint>> before;
   before.swap(meshes_);
+  rough_.clear();
+  wanted_.clear();
   for (std::uint32_t i = 0; i < world.solids.size(); ++i) {
     const Solid& solid = world.solids[i];
     const Bounds box = extent(solid);
@@ -76,16 +124,12 @@ void PlanSolids::make(const Snapshot& now) {
     entry.top = box.high.z;
     entry.overhead = !solid.motion && box.low.z > head + 0.1;
     const auto* mesh = std::get_if<MeshSolid>(&solid.shape);
-    auto* known = mesh ? &meshes_[{mesh->mesh, mesh->scale, solid.pitch, solid.roll}] : nullptr;
-    if (known && !*known)
-      if (const auto old = before.find({mesh->mesh, mesh->scale, solid.pitch, solid.roll}); old != before.end()) *known = old->second;
-    if (known && *known) {
-      entry.shape = *known;
+    if (mesh) {
+      const MeshKey key{mesh->mesh, mesh->scale, solid.pitch, solid.roll};
+      if (const auto old = before.find(key); old != before.end()) meshes_.insert(*old);
+      entry.shape = mesh_shape(solid, key, entry);
     } else {
-      auto shape = std::make_shared<Footprint>(footprint_of(solid));
-      if (mesh && mesh->mesh->triangles.size() > many_triangles) make_mask(*shape);
-      entry.shape = shape;
-      if (known) *known = shape;
+      entry.shape = std::make_shared<Footprint>(footprint_of(solid));
     }
     const MaterialColour colour = material_colour(world.materials[solid.material]);
     const double alpha = (colour.penetrable ? 0.5 : 0.95) * (entry.overhead ? 0.35 : 1.0);
@@ -100,6 +144,7 @@ void PlanSolids::make(const Snapshot& now) {
 
 void PlanSolids::draw(const Frame& frame, const PlanCamera& camera, ImDrawList& draw) {
   if (!made_ || revision_ != frame.now.world_revision) make(frame.now);
+  take_made(frame.still);
   const ImDrawListFlags flags = draw.Flags;
   draw.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // neighbours would show seams
   for (const Entry& entry : entries_) draw_one(frame, camera, entry, draw);

@@ -42,7 +42,7 @@ std::string metres(double distance) { return std::isfinite(distance) ? fmt::form
 void draw_state(const Frame& frame, const Simulation& s) {
   const Decision& decision = s.decision();
   const std::string state = decision.state.empty() ? "It has not decided anything yet." : decision.state;
-  ImGui::PushStyleColor(ImGuiCol_Text, colour_of(frame.colours.robot));
+  ImGui::PushStyleColor(ImGuiCol_Text, colour_of(frame.colours.dark ? frame.colours.robot : frame.colours.start));
   ImGui::TextWrapped("%s", state.c_str());
   ImGui::PopStyleColor();
   if (!decision.reason.empty()) ImGui::TextWrapped("%s: %s", to_words(decision.outcome), decision.reason.c_str());

@@ -27,6 +27,23 @@ void SpaceView::move_camera(const Simulation& simulation, ImVec2 size, bool hove
   if (hovered && !io.WantTextInput && ImGui::IsKeyPressed('F', false)) camera.fit(simulation.scene().world(), static_cast<int>(size.x), static_cast<int>(size.y));
 }
 
+/// A click that did not turn the camera selects, and twice sets the goal: on what is there, or else at the robot's height.
+void SpaceView::click(const Frame& frame, const PictureView& view, ImVec2 low, ImVec2 high) const {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool twice = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left), once = ImGui::IsMouseReleased(ImGuiMouseButton_Left) && io.MouseDragMaxDistanceSqr[0] < 16.0f;
+  if (!once && !twice) return;
+  const double u = 2.0 * static_cast<double>((io.MousePos.x - low.x) / (high.x - low.x)) - 1.0, v = 1.0 - 2.0 * static_cast<double>((io.MousePos.y - low.y) / (high.y - low.y));
+  const Simulation& s = *frame.now.simulation;
+  const auto picked = pick_in_space(s.scene(), view, u, v);
+  if (once && !twice) frame.desk.solid = picked ? std::optional(picked->solid) : std::nullopt;
+  if (!twice) return;
+  if (picked) return frame.post(SetGoal{glm::dvec2(picked->point)});
+  const PictureCamera eye(view);
+  const glm::dvec3 along = eye.direction(u, v);
+  const double ahead = (s.vehicle_pose().position.z - eye.from.z) / along.z;
+  if (std::isfinite(ahead) && ahead > 0.0) frame.post(SetGoal{glm::dvec2(eye.from + ahead * along)});
+}
+
 void SpaceView::draw(const Frame& frame) {
   if (!frame.now.simulation) return ImGui::TextUnformatted("Nothing is open.");
   const Simulation& s = *frame.now.simulation;
@@ -58,6 +75,9 @@ void SpaceView::draw(const Frame& frame) {
   // With the picture's own camera, which may be a moment late: lines and surfaces belong together.
   Overlay overlay(draw, low, high, image_ ? image_->view : view, image_.get());
   draw_run(frame, {rays_, echoes_, trail_, robot_}, overlay);
+  const World& world = s.scene().world();
+  if (frame.desk.solid && *frame.desk.solid < world.solids.size()) draw_outline(world.solids[*frame.desk.solid], s.time(), frame.colours.selected | IM_COL32_A_MASK, overlay);
+  if (hovered) click(frame, image_ ? image_->view : view, low, high);
   if (hovered) read_out(frame, low, high);
   draw.PopClipRect();
 }

@@ -65,14 +65,15 @@ void WorldView::toolbar(const Frame& frame) {
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
     const bool pressed = ImGui::SmallButton(words);
     if (chosen) ImGui::PopStyleColor();
-    ImGui::SameLine();
     return pressed;
   };
   if (button("pan (P)", !frame.desk.tool)) frame.desk.tool.reset();
   for (const ToolKey& tool : tool_keys) {
     const std::string words = std::string(tool.name) + " (" + tool.key + ")";
+    beside_if_room(words.c_str());
     if (button(words.c_str(), is_chosen(frame, tool.name))) frame.desk.tool = tool.make(solids_);
   }
+  beside_if_room("Layers");
   if (button("Layers", false)) ImGui::OpenPopup("layers");
   if (ImGui::BeginPopup("layers")) {
     layers_.menu();

@@ -29,11 +29,24 @@ std::optional<std::pair<int, int>> size_of(const std::string& text) {
   return std::pair(width, height);
 }
 
+/// The mission of a run's folder, or the file itself.
+Result<std::string> input(const std::string& name) {
+  std::error_code none;
+  if (std::filesystem::is_directory(name, none)) {
+    const auto mission = std::filesystem::path(name) / "mission.toml";
+    if (std::filesystem::exists(mission, none)) return mission.string();
+    return Error{fmt::format("'{}' is a folder without a mission.toml, expected a mission, a world, or the folder of a run", name)};
+  }
+  if (!name.empty() && find_input(name).empty()) return Error{missing_input(name)};
+  return name;
+}
+
 }  // namespace
 
 int open_window(const GuiArguments& a) {
-  if (!a.file.empty() && find_input(a.file).empty()) return complain({missing_input(a.file)});
-  const auto shown = gui::show_window({a.file, a.overrides, a.report});
+  const auto file = input(a.file);
+  if (!file) return complain(file.error());
+  const auto shown = gui::show_window({*file, a.overrides, a.report});
   return shown ? done : complain(shown.error());
 }
 
@@ -41,9 +54,10 @@ int render_views(const RenderArguments& a) {
   const auto size = size_of(a.size);
   if (!size) return complain({fmt::format("--size is '{}', expected WIDTHxHEIGHT in pixels, each from 16 to 8192, for example 1280x800", a.size)});
   if (a.at && !(*a.at >= 0.0 && std::isfinite(*a.at))) return complain({fmt::format("--at is {}, expected simulated seconds, a finite number of at least 0", *a.at)});
-  std::error_code none;
-  if (!std::filesystem::is_directory(a.file, none) && find_input(a.file).empty()) return complain({missing_input(a.file)});
-  const auto drawn = gui::render_picture({a.file, a.overrides, a.view, a.at, a.out, size->first, size->second, a.light});
+  if (std::filesystem::path(a.out).extension() != ".png") return complain({fmt::format("--out is '{}', expected a name ending in .png", a.out)});
+  const auto file = input(a.file);
+  if (!file) return complain(file.error());
+  const auto drawn = gui::render_picture({*file, a.overrides, a.view, a.at, a.out, size->first, size->second, a.light});
   return drawn ? done : complain(drawn.error());
 }
 

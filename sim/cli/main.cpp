@@ -117,6 +117,22 @@ void add_picture(CLI::App& app, PictureArguments& a) {
   app.add_option("--map-image", a.map_image, "for a map_server world: an image instead of the one that it names")->type_name("FILE");
 }
 
+void add_generate(CLI::App& app, GenerateArguments& a) {
+  app.add_option("name", a.name, "model (default: a list of them)")->type_name("NAME");
+  app.add_option("--out", a.out, "OBJ file to write; the MTL file goes beside it")->type_name("FILE.obj");
+  const auto size = [&](const char* flag, double& metres, const char* what) { app.add_option(flag, metres, std::string("of the hold, metres: ") + what)->check(CLI::PositiveNumber)->capture_default_str()->type_name("M"); };
+  size("--length", a.hold.length, "inside");
+  size("--breadth", a.hold.breadth, "inside");
+  size("--depth", a.hold.depth, "from the tank top to the open deck");
+  size("--plate", a.hold.plate, "thickness of all plates");
+  size("--frame-spacing", a.hold.frame_spacing, "between web frames, at most");
+  size("--frame-depth", a.hold.frame_depth, "of web frames, inward");
+  size("--flange-width", a.hold.flange_width, "of the web frames' flanges");
+  size("--stiffener-spacing", a.hold.stiffener_spacing, "between stiffeners, at most");
+  size("--stiffener-depth", a.hold.stiffener_depth, "of stiffeners, inward");
+  size("--deck-width", a.hold.deck_width, "of the strip of deck outside");
+}
+
 void add_scan(CLI::App& app, ScanArguments& a) {
   app.add_option("world", a.world, "world file, map_server YAML, MovingAI .map or OBJ; shipped ones are found from any directory")->type_name("FILE");
   app.add_option("--pose", a.pose, "where the sensor itself is (its mount on a vehicle is left out): metres, z above the world's zero, degrees, pitch nose down")->type_name("X,Y,Z,YAW_DEG[,PITCH_DEG]");
@@ -168,11 +184,33 @@ void add_reachability(CLI::App& app, ReachabilityArguments& a) {
              "theorem's bound + 2 m. Exit codes: 0 nothing is wrong or over, 2 bad usage or file, 4 interrupted, 6 something is wrong or over.");
 }
 
+void add_experiments(CLI::App& app, ExperimentsArguments& a) {
+  app.add_option("names", a.names, "experiments to make (default: all)")->type_name("NAME");
+  app.add_flag("--list", a.list, "list them, with the figures of the sources that they stand for");
+  app.add_option("--out", a.out, "folder for the pictures (default: docs/experiments if called in the source tree, else thicket-out/experiments)")->type_name("DIR");
+  app.add_option("--page", a.page, "page in which their sections are replaced or put (default: docs/experiments.md in the tree, else experiments.md beside the pictures)")->type_name("FILE.md");
+  app.add_flag("--short", a.brief, "shorter drives and fewer scans: other numbers, for tests");
+  app.add_flag("--quiet", a.quiet, "no progress");
+}
+
 void add_score(CLI::App& app, ScoreArguments& a) {
   app.add_option("run_dir", a.folder, "folder that `thicket run` has written; the run is simulated once more, since its files do not hold probabilities")->required()->type_name("RUN_DIR");
   app.add_option("--truth", a.truth, "when a cell is matter: cell_centre: its centre lies in it; any_overlap: it and matter share any area")->capture_default_str();
   app.add_option("--tolerance", a.tolerance, "how far a claimed cell may be from a surface and still be right, metres")->check(CLI::NonNegativeNumber)->capture_default_str()->type_name("M");
   app.add_flag("--json", a.json, "print all figures as JSON");
+}
+
+void add_sar(CLI::App& app, SarArguments& a) {
+  app.add_option("input", a.input, "folder that `thicket run` has written, or a mission; it is simulated once more")->required()->type_name("RUN_DIR|MISSION");
+  app.add_option("--method", a.method, "simple_sum or back_projection, which needs signal = \"iq\" (default: back_projection where it can be)")->type_name("NAME");
+  app.add_option("--sensor", a.sensor, "name of the lobe radar (default: the first)")->type_name("NAME");
+  app.add_option("--frame", a.frame, "world or line: across and along the way that the lobe looks at first")->type_name("NAME");
+  app.add_option("--bounds", a.bounds, "of the image, metres (default: all that comes into the lobe)")->type_name("X0,Y0,X1,Y1");
+  app.add_option("--resolution", a.resolution, "edge of a pixel, metres (default: 0.02)")->type_name("M");
+  app.add_option("--floor-db", a.floor_db, "down to what is shown, against the brightest pixel (default: -40)")->type_name("DB");
+  app.add_flag("--fuse", a.fuse, "also take cells off the map where the image has no return: map_fused.pgm, and how good the map is before and after");
+  app.add_option("--out", a.out, "folder for sar.png, sar.npy and sar.json (default: RUN_DIR, of a mission thicket-out/NAME)")->type_name("DIR");
+  app.add_flag("--json", a.json, "print sar.json instead of a few lines");
 }
 
 void add_gui(CLI::App& app, GuiArguments& a) {
@@ -183,7 +221,7 @@ void add_gui(CLI::App& app, GuiArguments& a) {
 
 void add_render(CLI::App& app, RenderArguments& a) {
   app.add_option("file", a.file, "mission or world file, or the folder of a run, which is simulated once more")->required()->type_name("MISSION|RUN_DIR");
-  app.add_option("--view", a.view, "world, 3d, map, radar, mission, edit, planner, plots, profiler, or all: the whole window")->capture_default_str()->type_name("NAME");
+  app.add_option("--view", a.view, "world, 3d, map, radar, sar, mission, edit, planner, plots, profiler, or all: the whole window")->capture_default_str()->type_name("NAME");
   app.add_option("--at", a.at, "simulated seconds (default: the end of the run, which also comes where it ends before)")->type_name("S");
   app.add_option("--out", a.out, "picture to write")->required()->type_name("FILE.png");
   app.add_option("--size", a.size, "pixels")->capture_default_str()->type_name("WIDTHxHEIGHT");
@@ -225,6 +263,12 @@ int dispatch(int argc, char** argv) {
   CLI::App& score = *app.add_subcommand("score", "how good the map of a run is, judged by the world itself (exit code 6: the run gives another map than the one in its folder)");
   add_score(score, score_arguments);
 
+  SarArguments sar_arguments;
+  MissionFlags sar_flags;
+  CLI::App& sar = *app.add_subcommand("sar", "the image of synthetic aperture of a run: what one lobe saw along its way, laid together");
+  add_sar(sar, sar_arguments);
+  sar_flags.add_to(sar);
+
   std::string topic;
   CheckArguments check_arguments;
   CLI::App& check = *app.add_subcommand("check", "tell what is wrong with a world or mission file, and what to beware of");
@@ -240,6 +284,9 @@ int dispatch(int argc, char** argv) {
   PictureArguments picture_arguments;
   CLI::App& picture = *app.add_subcommand("picture", "draw what a world looks like, with the rays of the simulator");
   add_picture(picture, picture_arguments);
+  GenerateArguments generate_arguments;
+  CLI::App& generate = *app.add_subcommand("generate", "write a model that Thicket makes itself (a barge's hold, a car, a postbox, ...) as an OBJ file for worlds");
+  add_generate(generate, generate_arguments);
   CLI::App& worlds = *app.add_subcommand("worlds", "list the worlds and missions that are shipped");
   MaterialsArguments materials_arguments;
   CLI::App& materials = *app.add_subcommand("materials", "print the shipped materials, or those of a world, as a radar of some frequency meets them");
@@ -255,6 +302,9 @@ int dispatch(int argc, char** argv) {
   ReachabilityArguments reachability_arguments;
   CLI::App& reachability = *app.add_subcommand("reachability", "run planners on many problems and judge them by the world itself: verdicts, collisions, lengths (exit code 6: something is wrong)");
   add_reachability(reachability, reachability_arguments);
+  ExperimentsArguments experiments_arguments;
+  CLI::App& experiments = *app.add_subcommand("experiments", "make the experiments of Rozeboom 2012 and Billdal 2018: a page with pictures and tables, a section a figure");
+  add_experiments(experiments, experiments_arguments);
   CLI::App& help = *app.add_subcommand("help", "explain every key of a mission or world file");
   help.add_option("topic", topic, "mission or world")->required();
   bool markdown = false;
@@ -283,6 +333,12 @@ int dispatch(int argc, char** argv) {
     return gui.parsed() ? open_window(gui_arguments) : render_views(render_arguments);
   }
   if (score.parsed()) return score_folder(score_arguments);
+  if (sar.parsed()) {
+    auto overrides = sar_flags.overrides();
+    if (!overrides) return bad_input;
+    sar_arguments.overrides = std::move(*overrides);
+    return image_run(sar_arguments);
+  }
   if (check.parsed()) {
     auto overrides = check_flags.overrides();
     if (!overrides) return bad_input;
@@ -294,11 +350,16 @@ int dispatch(int argc, char** argv) {
   if (truth.parsed()) return write_truth(truth_arguments);
   if (convert.parsed()) return convert_map(convert_arguments);
   if (picture.parsed()) return draw_picture(picture_arguments);
+  if (generate.parsed()) {
+    for (const CLI::Option* option : generate.get_options()) generate_arguments.hold_changed |= option->count() > 0 && option->get_name() != "--out" && option->get_name() != "name";
+    return generate_model(generate_arguments);
+  }
   if (worlds.parsed()) return list_worlds();
   if (materials.parsed()) return list_materials(materials_arguments);
   if (scan.parsed()) return measure_scans(scan_arguments);
   if (sensors.parsed()) return list_sensors(sensor_name);
   if (reachability.parsed()) return study_reachability(reachability_arguments);
+  if (experiments.parsed()) return make_experiments(experiments_arguments);
   return help_topic(topic, markdown);
 }
 

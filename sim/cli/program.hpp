@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "thicket/sim/mission.hpp"
+#include "thicket/worlds/models.hpp"
 
 namespace thicket::cli {
 
@@ -32,6 +33,14 @@ struct ScoreArguments {
   std::string truth = "cell_centre"; ///< or "any_overlap"
   double tolerance = 0.2;            ///< m
   bool json = false;
+};
+
+struct SarArguments {
+  std::string input;  ///< folder of a run, or mission
+  std::string method, sensor, frame, bounds, out;  ///< empty: as the mission has it
+  std::optional<double> resolution, floor_db;      ///< m, dB
+  bool fuse = false, json = false;
+  std::vector<Override> overrides;
 };
 
 struct TruthArguments {
@@ -62,6 +71,8 @@ struct CheckArguments {
 int run_mission(const RunArguments& arguments);
 /// Runs what a folder holds once more and scores its map: 0, or 6 if that is not the map in the folder.
 int score_folder(const ScoreArguments& arguments);
+/// Simulates a run once more and writes its image.
+int image_run(const SarArguments& arguments);
 int check_file(const CheckArguments& arguments);
 /// A world as a map or a picture, and whether there is a way: 0 if there is, 3 if not.
 int write_truth(const TruthArguments& arguments);
@@ -74,6 +85,13 @@ struct MaterialsArguments {
   std::optional<double> thickness_m;
 };
 int list_materials(const MaterialsArguments& arguments);
+
+struct GenerateArguments {
+  std::string name, out;       ///< of a model; empty: list them
+  HoldSpec hold;
+  bool hold_changed = false;   ///< a size of the hold was given
+};
+int generate_model(const GenerateArguments& arguments);
 
 struct PictureArguments {
   std::string world, out, map_image;
@@ -116,6 +134,13 @@ struct ReachabilityArguments {
 };
 /// 0: nothing is wrong, 6: something is.
 int study_reachability(const ReachabilityArguments& arguments);
+
+struct ExperimentsArguments {
+  std::vector<std::string> names;  ///< empty: all
+  std::string out, page;           ///< empty: docs/experiments in the tree, else thicket-out/experiments
+  bool list = false, brief = false, quiet = false;
+};
+int make_experiments(const ExperimentsArguments& arguments);
 
 struct GuiArguments {
   std::string file;  ///< mission or world; empty: the window asks

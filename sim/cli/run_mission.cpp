@@ -15,6 +15,7 @@
 #include "thicket/sim/check.hpp"
 #include "thicket/sim/outputs.hpp"
 #include "thicket/sim/run.hpp"
+#include "thicket/sim/sar.hpp"
 
 namespace thicket::cli {
 namespace {
@@ -82,7 +83,7 @@ std::optional<Error> folder_fault(const std::filesystem::path& folder, const std
   if (fault || !std::filesystem::is_directory(folder, fault) || access(folder.c_str(), W_OK) != 0)
     return Error{fmt::format("--out: the folder '{}' cannot be written to, expected one that can", folder.string())};
   for (const auto& input : {mission_file, mission.world_file, mission.image_file})
-    for (const char* output : {"mission.toml", "map.yaml", "map.pgm", "map.png", "path.png"})
+    for (const char* output : {"mission.toml", "map.yaml", "map.pgm", "map.png", "path.png", "sar.png"})
       if (!input.empty() && std::filesystem::equivalent(input, folder / output, fault))
         return Error{fmt::format("--out: '{}' is read by this run and would be overwritten, expected another folder", (folder / output).string())};
   return std::nullopt;
@@ -156,6 +157,10 @@ int run_mission(const RunArguments& arguments) {
     fmt::print("{}", result_json(*simulation, score));
   } else if (!arguments.quiet) {
     fmt::print("{}{}", summary(*simulation, wall_run, folder), score ? headline(*score) : "");
+    if (mission->sar.enabled) {
+      const auto report = report_sar(*simulation);
+      fmt::print("{}", report ? sar_text(*simulation, *report) : "no image: " + report.error().message + "\n");
+    }
   }
   return exit_code(*simulation->verdict());
 }

@@ -29,6 +29,7 @@ void register_radar();
 void register_lobes();
 void register_nav();
 void register_mapping();
+void register_sar();
 void register_snapshots();
 void register_missions();
 void register_worlds();

@@ -81,6 +81,7 @@ int main(int argc, char** argv) {
   thicket::bench::register_lobes();
   thicket::bench::register_nav();
   thicket::bench::register_mapping();
+  thicket::bench::register_sar();
   thicket::bench::register_snapshots();
   thicket::bench::register_missions();
   thicket::bench::register_worlds();

@@ -1,7 +1,7 @@
 // What is found at which resolution: what the maps of 2018 missed, by a beam radar and by four lobes.
 #include <fmt/format.h>
 
-#include "found_things.hpp"
+#include "experiments/found_things.hpp"
 #include "study_mapping.hpp"
 #include "thicket/base/files.hpp"
 #include "thicket/sim/map_score.hpp"

@@ -186,6 +186,7 @@ TEST_CASE("form: the search looks at names, tables and help") {
   CHECK(matches("CLEAR", "planner", key));
   CHECK(matches("planner distance", "planner", key));
   CHECK_FALSE(matches("planner speed", "planner", key));
+  CHECK(matches("planner." + key.name, "planner", key));
 }
 
 TEST_CASE("form: a mission that was changed while it ran, saved and run headless, ends as it does here after Reset") {
@@ -260,6 +261,74 @@ TEST_CASE("mission view: what is typed in a field and entered is posted, and wha
   CHECK(std::ranges::any_of(good, [](const Mission& m) { return m.step_s == 0.125; }));
   const auto bad = type_everywhere("-3");
   CHECK(std::ranges::none_of(bad, [](const Mission& m) { return m.step_s < 0.0 || m.seed < 0; }));
+}
+
+TEST_CASE("form: a sensor is added from each preset and removed again, and the run goes on with it") {
+  Runner runner;
+  auto now = opened(runner, "rooms/u", 10);
+  const Mission first = now->simulation->mission();
+  for (const std::string& preset : sensor_presets()) {
+    CAPTURE(preset);
+    const auto next = with_sensor(now->simulation->mission(), now->file, preset);
+    if (!next) FAIL(next.error().message);
+    const std::size_t count = next->sensors.size();
+    runner.post(ChangeMission{*next});
+    runner.post(StepBy{4});
+    now = runner.settled();
+    INFO(now->message.text);
+    REQUIRE_FALSE(now->message.error);
+    CHECK(now->simulation->scans().size() == count);
+  }
+  CHECK(now->simulation->steps() == 10 + 4 * sensor_presets().size());
+  // The slowest scans once a second.
+  runner.post(StepBy{20});
+  now = runner.settled();
+  for (const Scan& scan : now->simulation->scans()) CHECK_FALSE(scan.beams.empty());
+  Mission mission = now->simulation->mission();
+  CHECK(mounted(mission.sensors[1]).name == "radar2");
+  // The one in the middle, then all that were added.
+  while (mission.sensors.size() > 1) {
+    const std::size_t which = mission.sensors.size() / 2;
+    const std::string gone = mounted(mission.sensors[which]).name;
+    const auto less = without_sensor(mission, now->file, which);
+    if (!less) FAIL(less.error().message);
+    CHECK(std::ranges::none_of(less->sensors, [&](const SensorSpec& sensor) { return mounted(sensor).name == gone; }));
+    mission = *less;
+  }
+  CHECK(write_mission(mission) == write_mission(first));
+  const auto none = without_sensor(mission, now->file, 0);
+  REQUIRE_FALSE(none);
+  CHECK(none.error().message.find("add another one first") != std::string::npos);
+  const auto unknown = with_sensor(mission, now->file, "k2pie");
+  REQUIRE_FALSE(unknown);
+  CHECK(unknown.error().message.find("did you mean 'k2pi'") != std::string::npos);
+  // One that the bumpers name is not removed behind their back.
+  Mission two = *with_sensor(mission, now->file, "bumpers");
+  two.bumpers.sensors = "radar2";
+  CHECK_FALSE(without_sensor(two, now->file, 1));
+  CHECK(without_sensor(two, now->file, 0));
+}
+
+TEST_CASE("mission view: a sensor of another kind in the place of one that was there is drawn") {
+  Screen screen;
+  const auto view = make_mission_view();
+  Runner runner;
+  auto now = opened(runner, "rooms/u");
+  const auto draw = [&] {
+    for (int i = 0; i < 2; ++i) screen.draw(*now, [&](const Frame& frame) { view->draw(frame); });
+  };
+  draw();
+  const auto both = with_sensor(now->simulation->mission(), now->file, "utm30lx");
+  REQUIRE(both);
+  const auto other = without_sensor(*both, now->file, 0);
+  REQUIRE(other);
+  for (const Mission& mission : {*both, *other}) {
+    runner.post(ChangeMission{mission});
+    now = runner.settled();
+    REQUIRE_FALSE(now->message.error);
+    draw();
+    CHECK(ImGui::GetDrawData()->TotalVtxCount > 500);
+  }
 }
 
 TEST_CASE("mission view: drawn with nothing open, and for every shipped mission") {

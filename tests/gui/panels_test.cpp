@@ -20,7 +20,7 @@ namespace {
 
 std::vector<std::unique_ptr<View>> all_views() {
   std::vector<std::unique_ptr<View>> views;
-  for (auto* make : {make_radar_view, make_space_view, make_planner_view, make_plots_view, make_profiler_view}) views.push_back(make());
+  for (auto* make : {make_radar_view, make_sar_view, make_space_view, make_planner_view, make_plots_view, make_profiler_view}) views.push_back(make());
   return views;
 }
 

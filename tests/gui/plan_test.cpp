@@ -361,7 +361,7 @@ TEST_CASE("plan: an edited world sends only meshes that are new") {
   Runner runner;
   runner.post(Open{"thicket/way_round", {}});
   stand.now = runner.settled();
-  stand.frame();
+  stand.frame(true);
   CHECK(stand.textures.sent > 0);
   stand.textures.sent = 0;
   World world = stand.now->simulation->scene().world();

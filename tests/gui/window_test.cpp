@@ -8,6 +8,7 @@
 
 #include "core/desk.hpp"
 #include "missions.hpp"
+#include "platform/clicks.hpp"
 #include "temporary_folder.hpp"
 #include "thicket/base/files.hpp"
 #include "thicket/gui/render.hpp"
@@ -89,7 +90,7 @@ TEST_CASE("keys: a key does one thing, every deed has one, and typed letters are
       CAPTURE(table[j].help);
       CHECK_FALSE((table[i].key == table[j].key && table[i].ctrl == table[j].ctrl && table[i].shift == table[j].shift));
     }
-  for (int deed = 0; deed <= static_cast<int>(Deed::drive_right); ++deed) {
+  for (int deed = 0; deed <= static_cast<int>(Deed::fly_right); ++deed) {
     CAPTURE(deed);
     CHECK(*key_of(static_cast<Deed>(deed)) != '\0');
   }
@@ -124,6 +125,35 @@ TEST_CASE("keys: those that are held, and the stick, are one command within the 
   CHECK(chords.empty());
   io.WantTextInput = true;
   CHECK(hand_command({}, 0.7, 2.0).speed == 0.0);
+  ImGui::DestroyContext();
+}
+
+TEST_CASE("mouse: clicks that fall between two frames are two clicks, where the mouse was then") {
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.DeltaTime = 0.1f;  // a busy computer
+  io.MouseDoubleClickTime = 0.45f;
+  io.DisplaySize = {100.0f, 100.0f};
+  unsigned char* pixels = nullptr;
+  int width = 0, height = 0;
+  io.Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
+  Clicks clicks;
+  for (const bool down : {true, false, true, false}) clicks.note(0, down, {30.0f, 40.0f});
+  clicks.note(99, true, {0.0f, 0.0f});  // such a button ImGui does not know
+  int presses = 0, doubles = 0, frames = 0;
+  for (; !clicks.empty(); ++frames) {
+    io.MousePos = {70.0f, 70.0f};  // it is somewhere else by now
+    clicks.next(io);
+    CHECK(io.MousePos.x == 30.0f);
+    ImGui::NewFrame();
+    presses += ImGui::IsMouseClicked(0) ? 1 : 0;
+    doubles += ImGui::IsMouseDoubleClicked(0) ? 1 : 0;
+    ImGui::EndFrame();
+  }
+  CHECK(frames == 4);
+  CHECK(presses == 2);
+  CHECK(doubles == 1);
+  CHECK_FALSE(io.MouseDown[0]);
   ImGui::DestroyContext();
 }
 
@@ -286,8 +316,36 @@ TEST_CASE("gui: without a screen it says what to do; render says what it expects
   CHECK(code == 2);
   CHECK(text.find("xvfb-run") != std::string::npos);
   CHECK(text.find("thicket render") != std::string::npos);
-  CHECK(call(THICKET_PROGRAM " render rooms/u --out x.png --size big").first == 2);
-  CHECK(call(THICKET_PROGRAM " render no/such/mission --out x.png").first == 2);
+}
+
+TEST_CASE("gui, render: what is wrong is told before anything is opened, and what to do, with exit code 2") {
+  const TemporaryFolder folder;
+  const std::string here = folder.path().string(), broken = folder.write("broken.toml", "world = 3 = 4\n").string(), no_world = folder.write("empty.toml", "").string();
+  const std::string render = THICKET_PROGRAM " render ", gui = "env -u WAYLAND_DISPLAY DISPLAY=:9999 " THICKET_PROGRAM " gui ", out = " --at 0 --out '" + here + "/x.png'";
+  const auto refused = [&](const std::string& command, const std::string& told) {
+    const auto [code, text] = call(command);
+    INFO(command);
+    INFO(text);
+    CHECK(code == 2);
+    CHECK(text.find(told) != std::string::npos);
+  };
+  for (const std::string& program : {gui, render}) {
+    const std::string end = program == render ? out : "";
+    refused(program + "no/such/mission" + end, "`thicket worlds`");
+    refused(program + "'" + here + "'" + end, "a folder without a mission.toml");
+    refused(program + "'" + broken + "'" + end, "broken.toml:1:");
+    refused(program + "'" + no_world + "'" + end, "lacks the key 'name'");
+    refused(program + "rooms/u --set planner.clearance_m=-1" + end, "clearance_m");
+  }
+  refused(gui + "rooms/u", "no window can be opened");
+  for (const char* size : {"0x0", "-1x5", "9000x100", "1280", "big", "12x800x"}) refused(render + "rooms/u --size " + size + out, "expected WIDTHxHEIGHT");
+  for (const char* time : {"-1", "nan", "inf"}) refused(render + "rooms/u --out '" + here + "/x.png' --at " + time, "expected simulated seconds");
+  refused(render + "rooms/u --view side" + out, "expected one of: world, 3d");
+  refused(render + "rooms/u --at 0 --out '" + here + "/x.jpg'", "ending in .png");
+  refused(render + "rooms/u --at 0 --out /proc/x.png", "cannot be written");
+  CHECK_FALSE(fs::exists(folder.path() / "x.png"));
+  // Beyond its end a run is as it ended.
+  CHECK(call(render + "rooms/u --set limits.time_s=1 --size 64x48 --at 1e9 --out '" + here + "/x.png'").first == 0);
 }
 
 TEST_CASE("gui: a real session: played, paused, stepped back, photographed, saved, quit by keys") {

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "finished.hpp"
-#include "found_things.hpp"
+#include "experiments/found_things.hpp"
 #include "thicket/base/files.hpp"
 #include "thicket/sim/map_score.hpp"
 #include "thicket/sim/outputs.hpp"

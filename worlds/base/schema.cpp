@@ -36,9 +36,10 @@ std::string expectation(const Key& key) {
       return key.choices.empty() ? "a text in quotes" : fmt::format("one of '{}'", fmt::join(key.choices, "', '"));
     case KeyKind::numbers:
       if (key.length_min == key.length_max) return fmt::format("an array of {} numbers{}{}", key.length_min, unit_in_words(key), limits);
+      if (key.length_min == 1) return fmt::format("a number or an array of at most {}{}{}", key.length_max, unit_in_words(key), limits);
       return fmt::format("an array of numbers{}{}", unit_in_words(key), limits);
     case KeyKind::points:
-      return fmt::format("an array of [x, y{}] points{}{}", key.length_max == 3 ? ", z" : "", unit_in_words(key), limits);
+      return fmt::format("an array of [x, y{}] points{}{}", key.length_max != 3 ? "" : key.length_min == 3 ? ", z" : "] or [x, y, z", unit_in_words(key), limits);
   }
   return "";
 }
@@ -67,6 +68,11 @@ std::optional<double> read_number(const Node& node, const Key& key, Faults& faul
 
 std::optional<std::vector<double>> read_numbers(const Node& node, const Key& key, Faults& faults) {
   const auto* array = node.array();
+  if (!array && key.length_min == 1 && key.length_max > 1) {
+    const auto number = read_number(node, key, faults);
+    if (!number) return std::nullopt;
+    return std::vector<double>{*number};
+  }
   if (!array || array->size() < key.length_min || array->size() > key.length_max) {
     const std::string found = array ? fmt::format("an array of length {}", array->size()) : node.kind_in_words();
     faults.add(node.place, fmt::format("'{}' has {}, expected {}", key.name, found, expectation(key)));

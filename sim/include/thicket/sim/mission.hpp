@@ -14,6 +14,7 @@
 #include "thicket/nav/bumper.hpp"
 #include "thicket/nav/occupancy_map.hpp"
 #include "thicket/nav/planner.hpp"
+#include "thicket/radar/sar.hpp"
 #include "thicket/radar/sensor_spec.hpp"
 #include "thicket/sim/odometry.hpp"
 #include "thicket/sim/vehicle.hpp"
@@ -61,6 +62,7 @@ struct Mission {
   PlannerSpec planner;
   OdometrySpec odometry;
   MapSpec map;
+  SarSpec sar;
   LimitSpec limits;
   OutputSpec output;
 

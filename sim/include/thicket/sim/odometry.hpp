@@ -29,6 +29,9 @@ class Odometry {
   /// The robot drove `arc` for `dt` seconds, its step number `step` (< 2^48). Perfect odometry is not advanced: whoever has it takes the truth.
   void advance(const Arc& arc, double dt, std::uint64_t step);
 
+  /// The same of a way in any direction, from one pose to another: what it measures forward and sideways is scaled by `speed_scale`, with noise on each.
+  void advance(const Pose2& from, const Pose2& to, double dt, std::uint64_t step);
+
   bool perfect() const { return spec_.perfect(); }
   /// The estimate.
   const Pose2& pose() const { return pose_; }

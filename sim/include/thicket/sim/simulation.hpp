@@ -14,6 +14,7 @@
 #include "thicket/radar/sensor.hpp"
 #include "thicket/sim/mission.hpp"
 #include "thicket/sim/odometry.hpp"
+#include "thicket/sim/sar.hpp"
 #include "thicket/sim/vehicle.hpp"
 #include "thicket/worlds/scene.hpp"
 
@@ -31,7 +32,7 @@ const char* to_string(Verdict::Kind kind);
 
 /// Wall time spent in the parts of a run, s.
 struct PhaseTimes {
-  double trace = 0.0, map = 0.0, plan = 0.0, contact = 0.0;
+  double trace = 0.0, map = 0.0, plan = 0.0, contact = 0.0, sar = 0.0;
 };
 
 /// What a run adds up.
@@ -47,6 +48,8 @@ struct Stage {
   Scene scene;  ///< as it is at time 0; each simulation has its own, whose solids move
   std::vector<std::shared_ptr<const Sensor>> sensors;
   std::vector<std::size_t> bumper_sensors;  ///< places in `sensors`; the planner decides when the first of them has scanned
+  std::optional<std::size_t> sar_sensor;    ///< place in `sensors` of the one whose scans make the image, if there is to be one
+  FlightModel flight;  ///< of a vehicle that flies
 };
 
 class Simulation {
@@ -85,10 +88,11 @@ class Simulation {
   /// Time is steps times the step: it does not drift.
   double time() const { return static_cast<double>(steps_) * stage_->mission.step_s; }
   std::uint64_t steps() const { return steps_; }
-  const DifferentialDrive& vehicle() const { return vehicle_; }
+  const Vehicle& vehicle() const { return vehicle_; }
   /// The vehicle's pose as the robot believes it: the truth if its odometry is perfect.
   const Pose2& estimate() const { return odometry_.perfect() ? vehicle_.pose : odometry_.pose(); }
-  Pose vehicle_pose() const { return in_space(vehicle_.pose); }  ///< in space, on the start's height
+  Pose vehicle_pose() const { return in_space(vehicle_.pose); }  ///< in space, with altitude and tilt; on the start's height if it does not fly
+  Pose estimated_pose() const { return in_space(estimate()); }   ///< the same as the robot believes it: it knows its altitude and its tilt
   Platform platform() const;  ///< the same with how it moves, for sensors
   const Clearance& clearance() const { return clearance_; }  ///< as last looked for: not while nothing can be nearer than the least so far, and not much farther than that
   const RunTotals& totals() const { return totals_; }
@@ -98,6 +102,7 @@ class Simulation {
   const std::vector<Scan>& scans() const { return scans_; }  ///< the last scan of each sensor; without beams before the first
   const BumperRing& bumpers() const { return bumpers_; }
   const OccupancyMap& map() const { return map_; }
+  const SarImage* sar() const { return sar_ ? &*sar_ : nullptr; }  ///< null unless [sar] is enabled
   const Decision& decision() const { return decision_; }  ///< the planner's last
   std::vector<Mark> marks() const { return planner_->marks(); }
 
@@ -109,19 +114,24 @@ class Simulation {
   void measure(const std::vector<std::size_t>& due);
   void decide();
   void move();
+  void drive_on();
+  void fly_on();
+  /// Sweeps the hull along a flight's path. Returns the time of contact within it, s, or +inf.
+  double flight_contact(const FlightPath& path, double began);
   void check_limits();
   void check_progress();
   void end(Verdict::Kind kind, const std::string& reason);
 
   std::shared_ptr<const Stage> stage_;
   std::uint64_t steps_ = 0;
-  DifferentialDrive vehicle_;
+  Vehicle vehicle_;
   Odometry odometry_;
   std::unique_ptr<Planner> planner_;
   BumperRing bumpers_;
   Contour contour_;
   std::vector<ContourReader> readers_;      ///< one per sensor
   OccupancyMap map_;
+  std::optional<SarImage> sar_;
   std::vector<Scan> scans_;
   std::vector<std::uint64_t> scan_counts_;
   std::vector<Pose2> scan_estimates_;       ///< where the robot believed to be at each sensor's last scan
@@ -134,6 +144,7 @@ class Simulation {
   PhaseTimes times_;
   std::optional<Verdict> verdict_;
   Pose2 stuck_pose_;           ///< where the vehicle was when it last got away
+  double stuck_z_ = 0.0;
   std::uint64_t stuck_step_ = 0;
   glm::dvec2 place_{0.0, 0.0};  ///< the last new place that it came to
   std::uint64_t place_step_ = 0;

@@ -15,6 +15,7 @@ struct TrajectoryPoint {
   double z = 0.0;
   double speed = 0.0, turn_rate = 0.0;
   std::string state;  ///< of the planner
+  glm::dquat attitude{1.0, 0.0, 0.0, 0.0};  ///< in space; only heading if the vehicle does not fly
   Pose2 estimate;     ///< where the robot believed to be; `pose` if its odometry is perfect
 };
 
@@ -26,7 +27,8 @@ class Trajectory {
 
   const std::vector<TrajectoryPoint>& points() const { return points_; }
 
-  /// `time_s,x_m,y_m,z_m,yaw_deg,speed_m_s,turn_rate_deg_s,state`, digits that read back to the same bits. Of a robot whose odometry is not perfect there are `estimate_x_m,estimate_y_m,
+  /// `time_s,x_m,y_m,z_m,yaw_deg,speed_m_s,turn_rate_deg_s,state`, digits that read back to the same bits. Of a vehicle that flies there are `roll_deg,pitch_deg` after `turn_rate_deg_s`
+  /// (turned by roll first, then pitch, then yaw), and its speed is the forward one. Of a robot whose odometry is not perfect there are `estimate_x_m,estimate_y_m,
   /// estimate_yaw_deg` before the state.
   std::string csv() const;
   /// The TUM format: `time x y z qx qy qz qw`.
@@ -35,7 +37,7 @@ class Trajectory {
  private:
   std::vector<TrajectoryPoint> points_;
   std::uint64_t decisions_ = 0;
-  bool with_estimate_ = false;
+  bool with_estimate_ = false, flies_ = false;
 };
 
 }  // namespace thicket

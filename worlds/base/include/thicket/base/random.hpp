@@ -8,7 +8,7 @@
 namespace thicket {
 
 /// What a random number is for; two uses never share one.
-enum class RandomUse : std::uint8_t { ray_choice, range_noise, sampling, receiver, foliage, odometry };
+enum class RandomUse : std::uint8_t { ray_choice, range_noise, sampling, receiver, foliage, odometry, gust, jitter };
 
 /// Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011), from the Random123 library.
 class Random {

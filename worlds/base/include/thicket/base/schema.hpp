@@ -5,6 +5,7 @@
 // degrees, so that a resolved file reads back to the same bits. Code converts where it uses them.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -102,6 +103,12 @@ class SectionOf : public Section {
     };
     return *this;
   }
+  /// How many numbers the array that was declared last takes; where one is enough, it may stand without brackets.
+  SectionOf& lengths(std::size_t least, std::size_t most) {
+    keys.back().length_min = least;
+    keys.back().length_max = most;
+    return *this;
+  }
   SectionOf& required() {
     keys.back().required = true;
     return *this;
@@ -155,6 +162,22 @@ Point point(const std::vector<double>& list) {
   for (int i = 0; i < Point::length(); ++i) p[i] = list[static_cast<std::size_t>(i)];
   return p;
 }
+/// A point type of one's own: it says how many numbers it takes, is made of them and gives them.
+template <class P>
+concept OwnPoint = requires(const P& p, const std::vector<double>& list) {
+  { p.coordinates() } -> std::same_as<std::vector<double>>;
+  { P::of(list) } -> std::same_as<P>;
+  { P::length_min + P::length_max } -> std::convertible_to<std::size_t>;
+};
+template <class M>
+struct OwnPointList {
+  static constexpr bool is = false;
+};
+template <OwnPoint P>
+struct OwnPointList<std::vector<P>> {
+  static constexpr bool is = true;
+};
+
 template <class M>
 inline constexpr bool is_point = std::is_same_v<M, glm::dvec2> || std::is_same_v<M, glm::dvec3> || std::is_same_v<M, glm::dvec4>;
 template <class M>
@@ -167,6 +190,10 @@ Value to_value(const M& member) {
   } else if constexpr (is_point_list<M>) {
     std::vector<std::vector<double>> list;
     for (const auto& p : member) list.push_back(coordinates(p));
+    return list;
+  } else if constexpr (OwnPointList<M>::is) {
+    std::vector<std::vector<double>> list;
+    for (const auto& p : member) list.push_back(p.coordinates());
     return list;
   } else if constexpr (std::is_integral_v<M> && !std::is_same_v<M, bool>) {
     return static_cast<std::int64_t>(member);
@@ -182,6 +209,10 @@ M from_value(const Value& value) {
     M list;
     for (const auto& p : std::get<std::vector<std::vector<double>>>(value)) list.push_back(point<typename M::value_type>(p));
     return list;
+  } else if constexpr (OwnPointList<M>::is) {
+    M list;
+    for (const auto& p : std::get<std::vector<std::vector<double>>>(value)) list.push_back(M::value_type::of(p));
+    return list;
   } else if constexpr (std::is_integral_v<M> && !std::is_same_v<M, bool>) {
     return static_cast<M>(std::get<std::int64_t>(value));
   } else {
@@ -196,6 +227,10 @@ void describe_kind(Key& key) {
   } else if constexpr (is_point_list<M>) {
     key.kind = KeyKind::points;
     key.length_min = key.length_max = static_cast<std::size_t>(M::value_type::length());
+  } else if constexpr (OwnPointList<M>::is) {
+    key.kind = KeyKind::points;
+    key.length_min = M::value_type::length_min;
+    key.length_max = M::value_type::length_max;
   } else if constexpr (std::is_same_v<M, std::vector<double>>) {
     key.kind = KeyKind::numbers;
     key.length_max = std::numeric_limits<std::size_t>::max();

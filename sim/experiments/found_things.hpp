@@ -1,4 +1,4 @@
-// What of worlds/data/findings a map shows. For the test and for the study that makes the table of docs/mapping.md, whose rules these are.
+// What of worlds/data/findings a map shows. Private to sim/experiments, a test, and the study that makes the table of docs/mapping.md, whose rules these are.
 #pragma once
 
 #include <algorithm>
