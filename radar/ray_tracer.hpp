@@ -9,6 +9,7 @@
 #include "medium_walk.hpp"
 #include "thicket/base/pose.hpp"
 #include "thicket/base/random.hpp"
+#include "thicket/radar/sensor.hpp"
 #include "thicket/scan/scan.hpp"
 #include "thicket/worlds/scene.hpp"
 #include "wave.hpp"
@@ -62,6 +63,9 @@ struct TraceContext {
   bool multipath;              ///< waves go on from what mirrors them, and something does
   bool printed;
 };
+
+/// What tracing by this context models of what the world could show: penetration, interfaces, leaves, multipath.
+std::vector<ModelPart> parts_of_world(const TraceContext& context);
 
 /// Traces rays. The echoes of a ray depend on the ray and the context alone.
 ///
