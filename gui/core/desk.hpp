@@ -70,7 +70,7 @@ class Workbench {
   void open(const std::filesystem::path& file);
   void save_mission(const Snapshot& now, bool ask);
   void export_map(const Snapshot& now);
-  void write_mission_to(const Simulation& simulation, const std::filesystem::path& file);
+  void write_mission_to(const Simulation& simulation, bool world_changed, const std::filesystem::path& file);
 
   Runner& runner_;
   Settings settings_;

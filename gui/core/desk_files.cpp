@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "desk.hpp"
+#include "mission_form.hpp"
 #include "thicket/base/files.hpp"
 #include "thicket/base/probability_file.hpp"
 
@@ -25,7 +26,15 @@ void Workbench::open(const fs::path& file) {
   runner_.post(Open{file, {}});
 }
 
-void Workbench::write_mission_to(const Simulation& simulation, const fs::path& file) {
+void Workbench::write_mission_to(const Simulation& simulation, bool world_changed, const fs::path& file) {
+  if (world_changed) {
+    // A mission only names its world: one that was edited stands beside it, and runs headless as it does here.
+    const auto saved = gui::save_mission(simulation.mission(), simulation.scene().world(), file, file.parent_path() / (file.stem().string() + "_world.toml"));
+    if (!saved) return say(true, saved.error().message);
+    if (!saved->world.empty()) runner_.post(ChangeMission{in_world_file(simulation.mission(), saved->world)});
+    saved_as_ = file;
+    return say(false, fmt::format("the mission is in {}{}", full(file), saved->world.empty() ? "" : ", its world in " + full(saved->world)));
+  }
   if (const auto written = write_file(file, write_mission(simulation.mission())); !written) return say(true, written.error().message);
   saved_as_ = file;
   say(false, fmt::format("the mission is in {}", full(file)));
@@ -33,11 +42,10 @@ void Workbench::write_mission_to(const Simulation& simulation, const fs::path& f
 
 void Workbench::save_mission(const Snapshot& now, bool ask) {
   if (!now.simulation) return;
-  if (now.world_changed) say(true, "the world was changed, and a mission only names its world: save the world too (Edit), and name it as the mission's");
   // A file that a person wrote has comments, which are lost in what is written here: it is not overwritten unasked.
-  if (!ask && !saved_as_.empty()) return write_mission_to(*now.simulation, saved_as_);
+  if (!ask && !saved_as_.empty()) return write_mission_to(*now.simulation, now.world_changed, saved_as_);
   const fs::path name = saved_as_.empty() ? fs::path(now.simulation->mission().name + "-changed.toml") : saved_as_;
-  ask_dialog_.show("Save mission as", name, [this, simulation = now.simulation](const fs::path& file) { write_mission_to(*simulation, file); });
+  ask_dialog_.show("Save mission as", name, [this, simulation = now.simulation, changed = now.world_changed](const fs::path& file) { write_mission_to(*simulation, changed, file); });
 }
 
 void Workbench::export_map(const Snapshot& now) {

@@ -43,7 +43,7 @@ World with(const std::shared_ptr<const Mesh>& mesh) {
 TEST_CASE("plan: a large mesh is a rectangle until its footprint is made, which the window does not wait for") {
   Runner runner;
   opened(runner, "rooms/u");
-  runner.post(ChangeWorld{with(hills(300))});
+  runner.post(ChangeWorld{with(hills(150))});
   auto now = runner.settled();
   INFO(now->message.text);
   REQUIRE_FALSE(now->message.error);
@@ -74,7 +74,7 @@ TEST_CASE("plan: a large mesh is a rectangle until its footprint is made, which 
   const auto other = make_world_view();
   KeptTextures fresh;
   sheet.draw(*other, *now, fresh);
-  runner.post(ChangeWorld{with(hills(100))});
+  runner.post(ChangeWorld{with(hills(50))});
   now = runner.settled();
   for (int i = 0; i < 5000 && masks(fresh) == 0; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
