@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "ray_tracer.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 template <class Such>
 const Solid* first_solid(const TraceContext& context, Such&& such) {
   const World& world = context.scene.world();
-  const auto found = std::ranges::find_if(world.solids, [&](const Solid& solid) { return such(context.materials[solid.material]); });
+  const auto found = std::ranges::find_if(world.solids, [&](const Solid& solid) { return std::invoke(such, context.materials[solid.material]); });
   return found == world.solids.end() ? nullptr : &*found;
 }
 
