@@ -26,7 +26,7 @@ class Lidar final : public Sensor {
 
   bool detects(const Material& material) const override { return material.stops_light; }
 
-  std::vector<ModelPart> model_of(const Scene& scene, const Platform&) const override {
+  std::vector<PhysicsPart> model_of(const Scene& scene, const Platform&) const override {
     if (light_losses(scene.world()).empty()) return {{"media", false, "nothing lets light in: of each ray the first surface is all"}};
     return {{"media", true, "light gets into some of the matter"}};
   }

@@ -29,7 +29,7 @@ bool OneRow::holds(const TraceContext& context) const {
   return heights && heights->x <= z - reach_ && heights->y >= z + reach_;
 }
 
-ModelPart OneRow::model_of(const TraceContext& context) const {
+PhysicsPart OneRow::model_of(const TraceContext& context) const {
   if (holds(context)) return {"elevation rows", false, "the world is the same at every height in sight: one row of rays stands for all"};
   return {"elevation rows", true, !context.first_surface_only ? "what lets the wave through takes more from a slanted ray" : context.multipath ? "mirrors send slanted rays on" : "the world changes with the height, or the lobe is not level"};
 }

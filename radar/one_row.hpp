@@ -21,7 +21,7 @@ class OneRow {
   /// Whether it holds for this scan.
   bool holds(const TraceContext& context) const;
   /// Whether it does, in words.
-  ModelPart model_of(const TraceContext& context) const;
+  PhysicsPart model_of(const TraceContext& context) const;
   /// What all rays of the lobe bring back, those of a column one after another. The strengths are what each ray's share makes of its power. Returns how many rays were traced.
   std::size_t returns(const TraceContext& context, const RaySampler& sampler, std::vector<Return>& returns) const;
 

@@ -69,10 +69,10 @@ class Radar final : public Sensor {
     return wave.visible && (!received_ || wave.reflectivity >= receiver_.floor_power());
   }
 
-  std::vector<ModelPart> model_of(const Scene& scene, const Platform& platform) const override {
+  std::vector<PhysicsPart> model_of(const Scene& scene, const Platform& platform) const override {
     const Random random(0, index_);
     const TraceContext context(scene, p_.wave, spec().range_min_m, spec().range_max_m, p_.sampler.antenna(), platform.pose * mount_, {}, random, 0);
-    std::vector<ModelPart> parts = parts_of_world(context);
+    std::vector<PhysicsPart> parts = parts_of_world(context);
     if (p_.one_row) parts.push_back(p_.one_row->model_of(context));
     if (!p_.ray_beams) parts.push_back({"beam divergence", p_.sampler.rays_per_beam() > 1 || p_.sampler.drawn_from() > 1, p_.sampler.rays_per_beam() > 1 || p_.sampler.drawn_from() > 1 ? "asked for" : "not asked for: a beam is one ray"});
     return parts;

@@ -65,7 +65,7 @@ struct TraceContext {
 };
 
 /// What tracing by this context models of what the world could show: penetration, interfaces, leaves, multipath.
-std::vector<ModelPart> parts_of_world(const TraceContext& context);
+std::vector<PhysicsPart> parts_of_world(const TraceContext& context);
 
 /// Traces rays. The echoes of a ray depend on the ray and the context alone.
 ///

@@ -39,9 +39,9 @@ void change(Radar& radar, const std::string& fidelity) {
 }
 void change(LidarSpec&, const std::string&) {}
 
-std::string list(const std::vector<ModelPart>& parts, bool modelled) {
+std::string list(const std::vector<PhysicsPart>& parts, bool modelled) {
   std::string text;
-  for (const ModelPart& part : parts)
+  for (const PhysicsPart& part : parts)
     if (part.modelled == modelled) text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", part.name, part.why);
   return text.empty() ? "nothing" : text;
 }

@@ -26,7 +26,7 @@ struct Platform {
 };
 
 /// A part of the physics that a sensor models in a scene, or leaves out, and why: for a person who asks what a result rests on.
-struct ModelPart {
+struct PhysicsPart {
   std::string name;  ///< "penetration"
   bool modelled = false;
   std::string why;   ///< "nothing in the world lets the wave through"
@@ -45,7 +45,7 @@ class Sensor {
   virtual bool detects(const Material& material) const = 0;
 
   /// What a scan from this platform models. What is left out is not executed, and would not change the scan.
-  virtual std::vector<ModelPart> model_of(const Scene& scene, const Platform& platform) const = 0;
+  virtual std::vector<PhysicsPart> model_of(const Scene& scene, const Platform& platform) const = 0;
 
   const MountedSpec& spec() const { return spec_; }
 

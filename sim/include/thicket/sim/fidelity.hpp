@@ -21,11 +21,11 @@ VehicleSpec at_fidelity(VehicleSpec spec, const std::string& fidelity);
 /// What a run models and leaves out.
 struct SensorModel {
   std::string sensor;
-  std::vector<ModelPart> parts;
+  std::vector<PhysicsPart> parts;
 };
 struct RunModel {
   std::vector<SensorModel> sensors;
-  std::vector<ModelPart> others;  ///< the vehicle, the map, moving solids, odometry
+  std::vector<PhysicsPart> others;  ///< the vehicle, the map, moving solids, odometry
 };
 RunModel model_of(const Simulation& simulation);
 

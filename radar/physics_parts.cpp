@@ -19,8 +19,8 @@ const Solid* first_solid(const TraceContext& context, Such&& such) {
 
 }  // namespace
 
-std::vector<ModelPart> parts_of_world(const TraceContext& context) {
-  std::vector<ModelPart> parts;
+std::vector<PhysicsPart> parts_of_world(const TraceContext& context) {
+  std::vector<PhysicsPart> parts;
   const auto add = [&](const char* name, const Solid* cause, const char* does, const char* without) {
     parts.push_back({name, cause != nullptr, cause ? fmt::format("'{}' {}", cause->name, does) : without});
   };
