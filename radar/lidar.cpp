@@ -26,6 +26,11 @@ class Lidar final : public Sensor {
 
   bool detects(const Material& material) const override { return material.stops_light; }
 
+  std::vector<PhysicsPart> model_of(const Scene& scene, const Platform&) const override {
+    if (light_losses(scene.world()).empty()) return {{"media", false, "nothing lets light in: of each ray the first surface is all"}};
+    return {{"media", true, "light gets into some of the matter"}};
+  }
+
   void measure(const Scene& scene, const Platform& platform, double time, std::uint64_t number, const Random& random, Scan& scan) const override {
     head(spec(), mount_, index_, time, number, scan);
     scan.rays = azimuths_.size();

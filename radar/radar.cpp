@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "mount.hpp"
+#include "one_row.hpp"
 #include "ray_sampler.hpp"
 #include "receiver.hpp"
 #include "sensors.hpp"
@@ -43,6 +44,7 @@ struct Parts {
   std::size_t row = 1;           ///< traced rays of a row, of which one is chosen
   bool ray_beams = false;        ///< traced, every ray is a beam of its own (a lobe)
   bool first_echo_only = false;
+  std::optional<OneRow> one_row;  ///< where one row of rays may stand for all of a lobe
 };
 
 class Radar final : public Sensor {
@@ -67,12 +69,30 @@ class Radar final : public Sensor {
     return wave.visible && (!received_ || wave.reflectivity >= receiver_.floor_power());
   }
 
+  std::vector<PhysicsPart> model_of(const Scene& scene, const Platform& platform) const override {
+    const Random random(0, index_);
+    const TraceContext context(scene, p_.wave, spec().range_min_m, spec().range_max_m, p_.sampler.antenna(), platform.pose * mount_, {}, random, 0);
+    std::vector<PhysicsPart> parts = parts_of_world(context);
+    if (p_.one_row) parts.push_back(p_.one_row->model_of(context));
+    if (!p_.ray_beams) parts.push_back({"beam divergence", p_.sampler.rays_per_beam() > 1 || p_.sampler.drawn_from() > 1, p_.sampler.rays_per_beam() > 1 || p_.sampler.drawn_from() > 1 ? "asked for" : "not asked for: a beam is one ray"});
+    return parts;
+  }
+
   void measure(const Scene& scene, const Platform& platform, double time, std::uint64_t number, const Random& random, Scan& scan) const override {
     head(spec(), mount_, index_, time, number, scan);
     const Pose sensor = platform.pose * mount_;
     const glm::dvec3 velocity = platform.velocity + glm::cross(platform.turn_rate, sensor.position - platform.pose.position);
     const TraceContext context(scene, p_.wave, spec().range_min_m, spec().range_max_m, p_.sampler.antenna(), sensor, velocity, random, number);
 
+    if (p_.one_row && p_.one_row->holds(context)) {
+      Result result = std::exchange(spare_result(), {});
+      result.ground.clear();  // which would be out of reach
+      result.returns.resize(1);
+      scan.rays += p_.one_row->returns(context, p_.sampler, result.returns.front());
+      receive(context, result, scan);
+      spare_result() = std::move(result);
+      return;
+    }
     const std::size_t count = p_.sampler.count();
     const bool own_traits = !p_.sampler.always_the_same(), rays_are_beams = !received_ && (p_.ray_beams || p_.sampler.rays_per_beam() == 1);
     Result result = std::exchange(spare_result(), {});
@@ -385,7 +405,7 @@ class Radar final : public Sensor {
 
 template <class Spec>
 Parts parts_of(const Spec& spec, std::size_t drawn_from) {
-  return {spec, spec, spec, RaySampler(Antenna(spec), spec.sampling == "jitter", drawn_from)};
+  return {.mounted = spec, .wave = spec, .receiver = spec, .sampler = RaySampler(Antenna(spec), spec.sampling == "jitter", drawn_from), .one_row = std::nullopt};
 }
 
 }  // namespace
@@ -403,6 +423,7 @@ std::shared_ptr<const Sensor> make_radar(const ScanningRadarSpec& spec, std::uin
 std::shared_ptr<const Sensor> make_radar(const LobeRadarSpec& spec, std::uint16_t index) {
   Parts parts = parts_of(spec, 1);
   parts.ray_beams = true;
+  parts.one_row = OneRow::make(spec, parts.sampler);
   return std::make_shared<Radar>(std::move(parts), index);
 }
 

@@ -10,8 +10,6 @@
 namespace thicket {
 namespace {
 
-constexpr double nearest = 0.01;  // m: the 1/R^2 of what is nearer is that of 1 cm
-
 /// Ways that a sent ray may split into at mirrors that let some of it through: each of n panes doubles them, and without a floor there is no end to it. The ways with the fewest bounces come first.
 constexpr std::uint32_t most_ways = 1000;
 
@@ -53,6 +51,8 @@ Scratch& scratch() {
   return of_thread;
 }
 
+/// Traces a scan's rays. What the scan does not need is not compiled in: without multipath nothing is kept of who met what.
+template <bool multipath>
 class RayTracer {
  public:
   RayTracer(const TraceContext& context, std::span<const RayTraits> traits, Traced& traced)
@@ -68,14 +68,14 @@ class RayTracer {
     traced_.echoes.reserve(rays.size());
     traced_.rays.resize(rays.size());
     traced_.count = 0;
-    if (c_.radar.bounces_max > 1) s_.ways.assign(rays.size(), 0);
+    if constexpr (multipath) s_.ways.assign(rays.size(), 0);
     Leg first;
     trace_all(rays, [&](std::uint32_t i) -> const Leg& {
       first.index = i;
       if (c_.radar.radial_velocity) first.rate = -glm::dot(c_.velocity, rays[i].direction);
       return first;
     });
-    if (c_.radar.bounces_max > 1) bounce();
+    if constexpr (multipath) bounce();
   }
 
  private:
@@ -104,7 +104,7 @@ class RayTracer {
     }
     start_with(leg);
     const double cosine = std::min(1.0, std::abs(glm::dot(hit.normal, ray.direction)));
-    if (c_.radar.bounces_max > 1) {
+    if constexpr (multipath) {
       meet(leg, {hit.range, nullptr, &material, &material, hit.solid, hit.normal, cosine});
     } else {  // nothing goes on from here: what comes back is all
       if (material.visible) {
@@ -156,7 +156,7 @@ class RayTracer {
   /// Power under which a perfect diffuse reflector at a range (m, the whole way out) would not be seen, before the factor of its range.
   double floor_at(double range) const {
     if (c_.radar.range_compensation || c_.printed) return c_.floor_power;
-    const double ratio = std::max(range, nearest) / c_.range_max;
+    const double ratio = std::max(range, nearest_range) / c_.range_max;
     return c_.floor_power * ratio * ratio;
   }
 
@@ -211,7 +211,9 @@ class RayTracer {
       const Edge edge = surface.slab > 0.0 ? Edge::thin : !was_matter ? Edge::front : is_matter ? Edge::inner : Edge::back;
       add_echo(leg, surface.range, backscatter(reflector, interface.reflectivity, surface.cosine, spread), interface.reflectivity, surface.cosine, edge, surface.solid);
     }
-    if (c_.radar.bounces_max > 1 && !was_matter) scatter(leg, surface, interface);
+    if constexpr (multipath) {
+      if (!was_matter) scatter(leg, surface, interface);
+    }
     if (surface.after && surface.after->opaque()) {
       end_ = {BeamEnd::stopped, surface.range};
       return false;
@@ -240,7 +242,7 @@ class RayTracer {
 
   /// How much stronger a return is by the length of its way back, or weaker, in m; `range`: half of its whole way.
   double range_factor(double back, double range) const {
-    const double ratio = (c_.radar.range_compensation ? range : c_.range_max) / std::max(back, nearest);
+    const double ratio = (c_.radar.range_compensation ? range : c_.range_max) / std::max(back, nearest_range);
     return ratio * ratio;
   }
 
@@ -253,7 +255,7 @@ class RayTracer {
       amplitude *= std::sqrt(reflectivity) * cosine * ratio * ratio;  // eq. 4.2 of Billdal 2018
     } else {
       amplitude *= std::sqrt(sent_back);
-      if (!c_.radar.range_compensation) amplitude *= c_.range_max / std::max(way, nearest);
+      if (!c_.radar.range_compensation) amplitude *= c_.range_max / std::max(way, nearest_range);
     }
     const double range = way + excess_;
     if (!(amplitude * amplitude >= c_.floor_power) || range < c_.range_min || range > c_.range_max) return;
@@ -270,7 +272,7 @@ class RayTracer {
 
   void push(std::uint32_t index, const Echo& echo) {
     traced_.echoes.push_back(echo);
-    if (c_.radar.bounces_max > 1) s_.owners.push_back(index);
+    if constexpr (multipath) s_.owners.push_back(index);
   }
 
   /// What a surface mirrors goes on, and from the second one on what it sends to the sensor is looked after.
@@ -423,16 +425,25 @@ bool all_opaque(const World& world, const std::vector<WaveMaterial>& materials) 
   return std::ranges::all_of(world.solids, [&](const Solid& solid) { return materials[solid.material].opaque(); });
 }
 
+/// Whether some solid mirrors a part of what it sends back.
+bool any_mirror(const World& world, const std::vector<WaveMaterial>& materials) {
+  return std::ranges::any_of(world.solids, [&](const Solid& solid) { return materials[solid.material].diffuse < 1.0; });
+}
+
 }  // namespace
 
 TraceContext::TraceContext(const Scene& in, const RadarSpec& with, double from, double to, const Antenna& of, const Pose& at, const glm::dvec3& moving, const Random& dice, std::uint64_t number)
     : scene(in), radar(with), range_min(from), range_max(to), floor_power(from_db(with.detection_floor_db)), antenna(of), sensor(at), velocity(moving), random(dice), scan(number),
-      materials(wave_materials(in.world(), with, floor_power)), first_surface_only(all_opaque(in.world(), materials)), printed(with.law == "printed") {
+      materials(wave_materials(in.world(), with, floor_power)), first_surface_only(with.surfaces == "auto" && all_opaque(in.world(), materials)),
+      multipath(with.bounces_max > 1 && (with.surfaces != "auto" || any_mirror(in.world(), materials))), printed(with.law == "printed") {
   // Where leaves are at random places it is not known beforehand how far the budget takes a wave.
   list_budget_db = std::ranges::any_of(materials, &WaveMaterial::crown) ? infinity : with.penetration_budget_db;
   for (const WaveMaterial& material : materials) losses.push_back(material.attenuation_db_per_m);
 }
 
-void trace_rays(const TraceContext& context, std::span<const Ray> rays, std::span<const RayTraits> traits, Traced& traced) { RayTracer(context, traits, traced).trace(rays); }
+void trace_rays(const TraceContext& context, std::span<const Ray> rays, std::span<const RayTraits> traits, Traced& traced) {
+  if (context.multipath) RayTracer<true>(context, traits, traced).trace(rays);
+  else RayTracer<false>(context, traits, traced).trace(rays);
+}
 
 }  // namespace thicket

@@ -9,11 +9,15 @@
 #include "medium_walk.hpp"
 #include "thicket/base/pose.hpp"
 #include "thicket/base/random.hpp"
+#include "thicket/radar/sensor.hpp"
 #include "thicket/scan/scan.hpp"
 #include "thicket/worlds/scene.hpp"
 #include "wave.hpp"
 
 namespace thicket {
+
+/// The 1/R^2 of what is nearer is that of this, m.
+inline constexpr double nearest_range = 0.01;
 
 /// What a ray that leaves the sensor stands for.
 struct RayTraits {
@@ -56,8 +60,12 @@ struct TraceContext {
   std::vector<double> losses;  ///< of the materials, dB/m
   double list_budget_db = 0.0; ///< as far as solids are listed along a ray
   bool first_surface_only;     ///< nothing in the world lets a wave through
+  bool multipath;              ///< waves go on from what mirrors them, and something does
   bool printed;
 };
+
+/// What tracing by this context models of what the world could show: penetration, interfaces, leaves, multipath.
+std::vector<PhysicsPart> parts_of_world(const TraceContext& context);
 
 /// Traces rays. The echoes of a ray depend on the ray and the context alone.
 ///

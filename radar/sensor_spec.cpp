@@ -49,6 +49,7 @@ void add_radar_keys(SectionOf<S>& section) {
       .key("slab_max_m", &S::slab_max_m, "m", at_least(0.0), "a solid in the open that is no thicker is one slab with inner reflections (ITU-R P.2040-3), and one echo; 0: none is")
       .key("excess_range", &S::excess_range, "the wave is slower in dielectrics, so that what lies behind seems farther")
       .key("statistical_foliage", &S::statistical_foliage, "materials with leaves_per_m are leaves at random places, others in each scan, instead of even matter")
+      .choice("surfaces", &S::surfaces, {"auto", "all"}, "of each ray only what the world can show (nothing behind opaque matter, no bounces without mirrors), or every surface, as a check")
       .key("bounces_max", &S::bounces_max, "", between(1.0, 64.0), "surfaces that a wave may meet on its way out; 1 is no multipath")
       .key("radial_velocity", &S::radial_velocity, "echoes tell how fast their range changes (Doppler)")
       .choice("sampling", &S::sampling, {"regular", "jitter"}, "rays at the middles of their cells, or at random places in them, others in each scan");
@@ -102,6 +103,7 @@ SectionOf<LobeRadarSpec> lobe_section() {
       .key("elevation_opening_deg", &S::elevation_opening_deg, "deg", between(0.001, 170.0), "full opening upward and downward")
       .key("azimuth_rays", &S::azimuth_rays, "", between(1.0, 2000.0), "rays over the azimuth opening")
       .key("elevation_rays", &S::elevation_rays, "", between(1.0, 2000.0), "rays over the elevation opening")
+      .choice("rows", &S::rows, {"auto", "all"}, "one level row of rays stands for all where the world is the same at every height that a level lobe with a receiver sees; or each row is traced")
       .key("ray_spacing_m", &S::ray_spacing_m, "m", above_up_to(0.0, 1e3), "distance of neighbouring rays at range_max_m; gives the numbers of rays (eq. 4.4 of Billdal 2018)")
       .choice("section", &S::section, {"square", "elliptic"}, "of the lobe")
       .choice("gain", &S::gain, {"flat", "gaussian", "table"}, "of the antenna over the angle off its axis; nothing outside the opening")

@@ -25,7 +25,8 @@ SectionOf<Mission> header_section() {
       .key("world_height_m", &S::world_height_m, "m", above_up_to(0.0, 1e4), "for a map_server world: how high its matter is")
       .key("world_unknown_is_matter", &S::world_unknown_is_matter, "for a map_server world: whether unknown cells are matter")
       .key("seed", &S::seed, "", at_least(0.0), "of everything random: one seed, one result")
-      .key("step_s", &S::step_s, "s", between(1e-5, 0.2), "simulated time of a step");
+      .key("step_s", &S::step_s, "s", between(1e-5, 0.2), "simulated time of a step")
+      .choice("fidelity", &S::fidelity, {"auto", "fast", "reference"}, "what is modelled: what the scene requires; less, and with fewer rays; or all there is, with more rays, as a check");
   return section;
 }
 

@@ -10,6 +10,7 @@
 
 #include "thicket/base/files.hpp"
 #include "thicket/base/probability_file.hpp"
+#include "thicket/sim/fidelity.hpp"
 #include "thicket/sim/probability_picture.hpp"
 #include "thicket/sim/sar.hpp"
 #include "thicket/sim/travel.hpp"
@@ -129,6 +130,9 @@ std::string result_json(const Simulation& simulation, const std::optional<RunSco
     const FlightModel& model = simulation.stage().flight;
     json["flight"] = {{"model", model.rigid_body ? "rigid_body" : "kinematic"}, {"because", model.reason}, {"on_floor", simulation.vehicle().on_floor}};
   }
+  const RunModel model = model_of(simulation);
+  json["fidelity"] = mission.fidelity;
+  json["models"] = describe(model);
   json["steps"] = simulation.steps();
   json["scans"] = totals.scans;
   json["rays"] = totals.rays;

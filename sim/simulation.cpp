@@ -10,6 +10,7 @@
 
 #include "thicket/base/probability_file.hpp"
 #include "thicket/sim/auto_clearance.hpp"
+#include "thicket/sim/fidelity.hpp"
 #include "scan_clock.hpp"
 #include "vehicle_limits.hpp"
 
@@ -50,7 +51,7 @@ VehicleLimits vehicle_limits(const Mission& mission) {
 FlightModel flight_model(const Mission& mission) {
   double speed = mission.planner.speed_m_s.value_or(mission.vehicle.speed_max_m_s);
   if (planner_needs(mission.planner.name) == PlannerNeeds::waypoints && !mission.planner.waypoint_speeds_m_s.empty()) speed = *std::ranges::max_element(mission.planner.waypoint_speeds_m_s);
-  return choose_flight_model(mission.vehicle, speed);
+  return choose_flight_model(at_fidelity(mission.vehicle, mission.fidelity), speed);
 }
 
 const char* to_string(Verdict::Kind kind) {
@@ -81,7 +82,7 @@ Result<Simulation> Simulation::create(const Mission& given, Scene scene) {
   if (mission.vehicle.flies())
     if (const auto fault = vehicle_fault(mission.vehicle, flight, mission.step_s)) return Error{*fault};
   std::vector<std::shared_ptr<const Sensor>> sensors;
-  for (const SensorSpec& spec : mission.sensors) sensors.push_back(make_sensor(spec, static_cast<std::uint16_t>(sensors.size())));
+  for (const SensorSpec& spec : mission.sensors) sensors.push_back(make_sensor(at_fidelity(spec, mission.fidelity), static_cast<std::uint16_t>(sensors.size())));
   auto planner = make_planner(mission.planner, vehicle_limits(mission), start_pose(mission));
   if (!planner) return planner.error();
   Simulation simulation(std::make_shared<const Stage>(Stage{mission, std::move(scene), std::move(sensors), bumper_sensors(mission), mission.sar.enabled ? sar_sensor(mission) : std::nullopt, flight}), std::move(*planner));

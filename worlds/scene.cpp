@@ -156,6 +156,7 @@ Result<Scene> Scene::build(World world) {
     const Material& m = impl->world.materials[solid.material];
     impl->matter.push_back({solid.material, {true, m.stops_light, m.stops_motion}});
   }
+  impl->level_cuts = LevelCuts(impl->world);
   for (const Material& material : impl->world.materials) impl->losses.push_back(material.attenuation_db_per_m);
 
   impl->device.reset(rtcNewDevice(nullptr));
@@ -178,6 +179,7 @@ Result<Scene> Scene::build(World world) {
 
 const World& Scene::world() const { return impl_->world; }
 std::uint32_t Scene::material(std::uint32_t solid) const { return impl_->matter[solid].material; }
+const LevelCuts& Scene::level_cuts() const { return impl_->level_cuts; }
 bool Scene::moves() const { return !impl_->movers.empty(); }
 glm::dvec3 Scene::velocity(std::uint32_t solid, const glm::dvec3& point) const {
   const Standing now = standing_at(impl_->world.solids[solid], time_);

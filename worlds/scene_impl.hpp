@@ -28,6 +28,7 @@ struct Scene::Impl {
   Bounds box{glm::dvec3(0.0), glm::dvec3(0.0)};  ///< of all there is at any time, padded, relative to the origin
   double diagonal = 0.0;                         ///< of the box
   double slack = 0.0;
+  LevelCuts level_cuts{World{}};
   bool has_volumes = false;  ///< closed meshes, which a ray or a hull can be inside of
   double build_s = 0.0, fastest = 0.0;
   std::atomic<std::ptrdiff_t> bytes{0};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -138,6 +139,39 @@ std::optional<Bounds> extent(const World& world) {
     all = all ? join(*all, one) : one;
   }
   return all;
+}
+
+LevelCuts::LevelCuts(const World& world) {
+  std::vector<glm::dvec2> sloping;
+  for (const Solid& solid : world.solids) {
+    const Bounds box = extent(solid);
+    glm::dvec2 heights(box.low.z, box.high.z);
+    bool level = solid.upright() && !std::holds_alternative<Sphere>(solid.shape) && !std::holds_alternative<MeshSolid>(solid.shape);
+    if (solid.motion) {
+      for (const glm::dvec3& point : solid.motion->points) {
+        level = level && point.z == solid.motion->points.front().z;
+        heights = {std::min(heights.x, point.z - solid.position.z + box.low.z), std::max(heights.y, point.z - solid.position.z + box.high.z)};
+      }
+    }
+    if (!level) sloping.push_back(heights);
+    changes_.push_back(heights.x);
+    changes_.push_back(heights.y);
+  }
+  std::ranges::sort(changes_);
+  changes_.erase(std::unique(changes_.begin(), changes_.end()), changes_.end());
+  std::ranges::sort(sloping, {}, [](const glm::dvec2& heights) { return heights.x; });
+  for (const glm::dvec2& heights : sloping) {
+    if (sloping_.empty() || heights.x > sloping_.back().y) sloping_.push_back(heights);
+    else sloping_.back().y = std::max(sloping_.back().y, heights.y);
+  }
+}
+
+std::optional<glm::dvec2> LevelCuts::about(double z) const {
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  const auto above = std::ranges::lower_bound(sloping_, z, {}, [](const glm::dvec2& heights) { return heights.y; });
+  if (above != sloping_.end() && above->x <= z) return std::nullopt;
+  const auto next = std::ranges::upper_bound(changes_, z);
+  return glm::dvec2(next == changes_.begin() ? -endless : *std::prev(next), next == changes_.end() ? endless : *next);
 }
 
 double half_width_between(const Solid& solid, double z_low, double z_high) {

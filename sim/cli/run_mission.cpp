@@ -13,6 +13,7 @@
 #include "program.hpp"
 #include "thicket/base/files.hpp"
 #include "thicket/sim/check.hpp"
+#include "thicket/sim/fidelity.hpp"
 #include "thicket/sim/outputs.hpp"
 #include "thicket/sim/run.hpp"
 #include "thicket/sim/sar.hpp"
@@ -120,6 +121,7 @@ int run_mission(const RunArguments& arguments) {
   if (!simulation) return complain(simulation.error());
   if (!arguments.quiet)
     for (const std::string& warning : mission_warnings(*simulation)) fmt::print(stderr, "warning: {}\n", warning);
+  if (!arguments.quiet && !arguments.json) fmt::print("{}\n", describe(model_of(*simulation)));
   const std::filesystem::path folder = arguments.out.empty() ? standard_folder(mission->name) : std::filesystem::path(arguments.out);
   if (const auto fault = folder_fault(folder, file, *mission)) return complain(*fault);
 

@@ -86,6 +86,16 @@ void register_lobes() {
     for (const std::size_t threads : {1, 2})
       measure(what + ", wall time/" + std::to_string(threads) + (threads == 1 ? " thread" : " threads"), [=, s = scene](benchmark::State& state) { lobe_scans(state, s, x4, threads); })->UseRealTime();
   }
+  // A pure extrusion: the boxes are opaque and far taller than the lobe sees, and there is no floor.
+  World tall = boxes;
+  std::erase_if(tall.solids, [](const Solid& solid) { return !std::holds_alternative<Box>(solid.shape); });
+  for (Solid& solid : tall.solids) std::get<Box>(solid.shape).size.z = 1000.0;
+  const Scene tall_scene = or_exit(Scene::build(tall));
+  LobeRadarSpec all_rows = x4;
+  all_rows.rows = "all";
+  measure("lobe/x4m05 in a pure extrusion/every row", [=](benchmark::State& s) { lobe_scans(s, tall_scene, all_rows, 1); });
+  measure("lobe/x4m05 in a pure extrusion/one row", [=](benchmark::State& s) { lobe_scans(s, tall_scene, x4, 1); });
+
   measure("lobe/four x4m05 at 10 Hz/200 boxes", [=](benchmark::State& s) { four_lobes(s, boxes, x4); })->UseRealTime();
   measure("lobe/four x4m05 at 10 Hz/80 bushes", [=](benchmark::State& s) { four_lobes(s, bushes, x4); })->UseRealTime();
   measure("lobe/four x4m05 at 10 Hz/25 trees, 100000 leaves", [=](benchmark::State& s) { four_lobes(s, leafy_thicket(25, 8.0), x4); })->UseRealTime();

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "thicket/base/pose.hpp"
 #include "thicket/base/random.hpp"
@@ -23,6 +25,13 @@ struct Platform {
   Platform(const Pose& moving, const glm::dvec3& with, const glm::dvec3& turning) : pose(moving), velocity(with), turn_rate(turning) {}
 };
 
+/// A part of the physics that a sensor models in a scene, or leaves out, and why: for a person who asks what a result rests on.
+struct PhysicsPart {
+  std::string name;  ///< "penetration"
+  bool modelled = false;
+  std::string why;   ///< "nothing in the world lets the wave through"
+};
+
 /// A sensor: immutable, so that any number of simulations and threads may share it.
 class Sensor {
  public:
@@ -34,6 +43,9 @@ class Sensor {
   /// Whether a surface of this material that fills a beam, met squarely from the open at the end of the range, gives an echo; of a medium that light enters, whether
   /// enough of it does.
   virtual bool detects(const Material& material) const = 0;
+
+  /// What a scan from this platform models. What is left out is not executed, and would not change the scan.
+  virtual std::vector<PhysicsPart> model_of(const Scene& scene, const Platform& platform) const = 0;
 
   const MountedSpec& spec() const { return spec_; }
 

@@ -46,6 +46,7 @@ struct RadarSpec {
   double slab_max_m = 0.1;      ///< thickness up to which a solid in the open is one slab (ITU-R P.2040)
   bool excess_range = false;    ///< the wave is slower in matter, and what is behind seems farther
   bool statistical_foliage = false;  ///< crowns (materials with leaves_per_m) are leaves at random places
+  std::string surfaces = "auto";     ///< "auto": of each ray only what the world can show | "all": every surface and mirror is looked for, whether there is one or not
   std::int64_t bounces_max = 1;      ///< surfaces that a wave may meet on its way out; 1: no multipath
   bool radial_velocity = false;
   std::string sampling = "regular";  ///< | "jitter": rays at random places in their cells, others in each scan
@@ -89,6 +90,7 @@ struct ScanningRadarSpec : ScannerSpec, RadarSpec, ReceiverSpec {
 struct LobeRadarSpec : MountedSpec, RadarSpec, ReceiverSpec {
   double azimuth_opening_deg = 65.0, elevation_opening_deg = 65.0;  ///< full
   std::int64_t azimuth_rays = 58, elevation_rays = 58;
+  std::string rows = "auto";              ///< "auto": one row of rays stands for all where the world is the same at every height | "all": each is traced
   std::optional<double> ray_spacing_m;   ///< at range_max_m, instead of the numbers of rays: Billdal 2018, eq. 4.4
   std::string section = "square";        ///< | "elliptic"
   std::string gain = "flat";             ///< | "gaussian" | "table"

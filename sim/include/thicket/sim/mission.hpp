@@ -54,6 +54,7 @@ struct Mission {
   bool world_unknown_is_matter = true;
   std::int64_t seed = 1;
   double step_s = 0.05;
+  std::string fidelity = "auto";  ///< how much of the physics: see fidelity.hpp
 
   VehicleSpec vehicle;
   StartSpec start;

@@ -110,6 +110,7 @@ class Scene {
   glm::dvec3 velocity(std::uint32_t solid, const glm::dvec3& point) const;
   /// The greatest speed of any point of a moving solid, m/s; 0 where nothing moves.
   double fastest() const;
+  const LevelCuts& level_cuts() const;
 
   /// hits[i] becomes the first surface on rays[i] of matter that stops what is named. Returns how many rays were rejected.
   std::size_t closest_hits(std::span<const Ray> rays, Stops stops, std::span<Hit> hits) const;

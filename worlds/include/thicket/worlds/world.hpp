@@ -135,6 +135,19 @@ World world_at(const World& world, double time);
 Bounds extent(const Solid& solid);
 std::optional<Bounds> extent(const World& world);
 
+/// At which heights the level cut through a world changes. Between two of them the world is a pure extrusion: the same at every height, at any time.
+class LevelCuts {
+ public:
+  explicit LevelCuts(const World& world);
+
+  /// The widest stretch of heights (low, high) about z without a change, infinite where nothing follows; nothing if the cut changes all the way there: a sphere, a mesh, a tilted solid, or one that moves up or down.
+  std::optional<glm::dvec2> about(double z) const;
+
+ private:
+  std::vector<double> changes_;      ///< sorted
+  std::vector<glm::dvec2> sloping_;  ///< sorted, apart: heights of what is no upright extrusion
+};
+
 /// The horizontal half-width of a sphere or cylinder about its own axis between two heights, the half diagonal of anything else there; 0 where it has no
 /// matter between them. Tells whether a sensor's plane sees as much of a solid as the hull would meet.
 double half_width_between(const Solid& solid, double z_low, double z_high);
