@@ -41,17 +41,25 @@ Pose2 start_pose(const Mission& mission) { return {{mission.start.x_m, mission.s
 
 }  // namespace
 
+/// The fastest that the mission asks for, m/s.
+static double fastest_asked_for(const Mission& mission) {
+  if (planner_needs(mission.planner.name) == PlannerNeeds::waypoints && !mission.planner.waypoint_speeds_m_s.empty()) return *std::ranges::max_element(mission.planner.waypoint_speeds_m_s);
+  return mission.planner.speed_m_s.value_or(mission.vehicle.speed_max_m_s);
+}
+
 VehicleLimits vehicle_limits(const Mission& mission) {
   VehicleLimits limits = mission.vehicle.limits(std::max(mission.step_s, 1.0 / mounted(mission.sensors[bumper_sensors(mission).front()]).rate_hz));
   const VehicleSpec& vehicle = mission.vehicle;
-  if (vehicle.flies()) limits.flight = FlightLimits{mission.start.z_m, vehicle.climb_rate_max_m_s, vehicle.landing_speed_max_m_s, vehicle.velocity_time_s};
+  // A planner looks as far as braking takes: from what could be flown that may be far, and dear.
+  if (vehicle.flies()) {
+    limits.speed = std::min(limits.speed, fastest_asked_for(mission));
+    limits.flight = FlightLimits{mission.start.z_m, vehicle.climb_rate_max_m_s, vehicle.landing_speed_max_m_s, vehicle.velocity_time_s};
+  }
   return limits;
 }
 
 FlightModel flight_model(const Mission& mission) {
-  double speed = mission.planner.speed_m_s.value_or(mission.vehicle.speed_max_m_s);
-  if (planner_needs(mission.planner.name) == PlannerNeeds::waypoints && !mission.planner.waypoint_speeds_m_s.empty()) speed = *std::ranges::max_element(mission.planner.waypoint_speeds_m_s);
-  return choose_flight_model(at_fidelity(mission.vehicle, mission.fidelity), speed);
+  return choose_flight_model(at_fidelity(mission.vehicle, mission.fidelity), fastest_asked_for(mission));
 }
 
 const char* to_string(Verdict::Kind kind) {
