@@ -103,7 +103,7 @@ SectionOf<LobeRadarSpec> lobe_section() {
       .key("elevation_opening_deg", &S::elevation_opening_deg, "deg", between(0.001, 170.0), "full opening upward and downward")
       .key("azimuth_rays", &S::azimuth_rays, "", between(1.0, 2000.0), "rays over the azimuth opening")
       .key("elevation_rays", &S::elevation_rays, "", between(1.0, 2000.0), "rays over the elevation opening")
-      .choice("rows", &S::rows, {"auto", "all"}, "one level row of rays stands for all where the world is the same at every height that a level lobe with a receiver sees; or each row is traced")
+      .choice("rows", &S::rows, {"auto", "one", "all"}, "one level row of rays stands for all where the world is the same at every height that a level lobe with a receiver sees, with regular rays; one: jittered ones too, whose scans then vary more; or each row is traced")
       .key("ray_spacing_m", &S::ray_spacing_m, "m", above_up_to(0.0, 1e3), "distance of neighbouring rays at range_max_m; gives the numbers of rays (eq. 4.4 of Billdal 2018)")
       .choice("section", &S::section, {"square", "elliptic"}, "of the lobe")
       .choice("gain", &S::gain, {"flat", "gaussian", "table"}, "of the antenna over the angle off its axis; nothing outside the opening")

@@ -20,7 +20,7 @@ void scale_rays(LobeRadarSpec& lobe, const std::string& fidelity) {
   if (lobe.ray_spacing_m) *lobe.ray_spacing_m *= fidelity == "reference" ? 0.5 : 2.0;
   lobe.azimuth_rays = scaled(lobe.azimuth_rays, fidelity);
   lobe.elevation_rays = scaled(lobe.elevation_rays, fidelity);
-  if (fidelity == "reference") lobe.rows = "all";
+  lobe.rows = fidelity == "reference" ? "all" : "one";
 }
 void scale_rays(ScanningRadarSpec& radar, const std::string& fidelity) {
   radar.elevation_rays = scaled(radar.elevation_rays, fidelity);

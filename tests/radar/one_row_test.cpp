@@ -79,7 +79,7 @@ TEST_CASE("one row: jittered, its mean profile is that of all rows within 0.1 dB
     }
     return bins;
   };
-  const auto one = profile("auto"), all = profile("all");
+  const auto one = profile("one"), all = profile("all");
   const double top = std::ranges::max_element(all, {}, &Bin::mean)->mean;
   int sharp = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {

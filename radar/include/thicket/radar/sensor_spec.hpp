@@ -90,7 +90,7 @@ struct ScanningRadarSpec : ScannerSpec, RadarSpec, ReceiverSpec {
 struct LobeRadarSpec : MountedSpec, RadarSpec, ReceiverSpec {
   double azimuth_opening_deg = 65.0, elevation_opening_deg = 65.0;  ///< full
   std::int64_t azimuth_rays = 58, elevation_rays = 58;
-  std::string rows = "auto";              ///< "auto": one row of rays stands for all where the world is the same at every height | "all": each is traced
+  std::string rows = "auto";              ///< "auto": one row of rays stands for all where the world is the same at every height | "one": jittered rows too | "all": each is traced
   std::optional<double> ray_spacing_m;   ///< at range_max_m, instead of the numbers of rays: Billdal 2018, eq. 4.4
   std::string section = "square";        ///< | "elliptic"
   std::string gain = "flat";             ///< | "gaussian" | "table"

@@ -12,7 +12,7 @@ namespace thicket {
 class Simulation;
 
 /// A sensor under a fidelity. "auto": as its keys say; what a scene does not show is left out, which changes nothing. "reference": nothing is left out, and lobes, cones and rows have twice as many rays each way. "fast": half as many each way (8 at
-/// least), no multipath, and interfaces that reflect as much at any angle.
+/// least), no multipath, one row of jittered rays too, and interfaces that reflect as much at any angle.
 SensorSpec at_fidelity(SensorSpec spec, const std::string& fidelity);
 
 /// The vehicle's model under a fidelity, where the mission leaves it open: "fast" flies by the kinematic one, "reference" the rigid body.
