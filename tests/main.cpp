@@ -4,7 +4,7 @@
 
 #include "thicket/base/float_traps.hpp"
 
-// Every test of every room but the window's runs with floating-point exceptions trapped: docs/extremes.md.
+// Every test of worlds, radar and nav runs with floating-point exceptions trapped: docs/extremes.md.
 int main(int argc, char** argv) {
   doctest::Context context(argc, argv);
 #ifndef THICKET_NO_FLOAT_TRAPS

@@ -52,10 +52,18 @@ std::string other_value(const Key& key, const Value& now) {
   return "";
 }
 
+/// Keys of what flies.
+bool needs_flight(const std::string& name) {
+  for (const char* known : {"vehicle.type", "planner.heading_deg", "planner.altitude_m", "planner.land"})
+    if (name == known) return true;
+  return false;
+}
+
 /// Keys whose values must fit to those of others, or to files, and are tried by themselves below.
 bool depends(const std::string& name) {
-  for (const char* known : {"mission.world", "mission.world_image", "map.initial", "bumpers.sensors", "output.map_formats", "map.cell_bits", "planner.name"})
+  for (const char* known : {"mission.world", "mission.world_image", "map.initial", "bumpers.sensors", "output.map_formats", "map.cell_bits", "planner.name", "planner.waypoint_speeds_m_s"})
     if (name == known) return true;
+  if (needs_flight(name)) return true;
   // Of sensors: those that need another first.
   return name.ends_with(".gain_table_db") || (name.ends_with("radar.elevation_rays") && !name.starts_with("sensor lobe"));
 }
@@ -71,7 +79,7 @@ TEST_CASE("form: every key of every table can be set, and the written mission re
   }
   std::size_t count = 0;
   const auto all = mission_parts(mission);
-  CHECK(all.size() == 9 + mission.sensors.size());
+  CHECK(all.size() == 10 + mission.sensors.size());
   for (std::size_t p = 0; p < all.size(); ++p)
     for (std::size_t k = 0; k < all[p].section->keys.size(); ++k) {
       const Key& key = all[p].section->keys[k];
@@ -95,6 +103,27 @@ TEST_CASE("form: every key of every table can be set, and the written mission re
       ++count;
     }
   CHECK(count > 150);
+}
+
+TEST_CASE("form: keys of what flies can be set where it flies, and are refused where it drives") {
+  const Mission flying = mission_of("quadrotor/waypoints"), driving = mission_of("rooms/u");
+  Mission copy = flying;
+  const auto all = mission_parts(copy);
+  int count = 0;
+  for (std::size_t p = 0; p < all.size(); ++p)
+    for (std::size_t k = 0; k < all[p].section->keys.size(); ++k) {
+      const Key& key = all[p].section->keys[k];
+      const std::string name = all[p].title + "." + key.name;
+      if (!needs_flight(name) || key.name == "type") continue;
+      CAPTURE(name);
+      const std::string typed = other_value(key, key.get(all[p].object));
+      CHECK(with_key(flying, {}, {p, k}, typed));
+      const auto refused = with_key(driving, {}, {p, k}, typed);
+      REQUIRE_FALSE(refused);
+      CHECK(refused.error().message.find("hector_quadrotor") != std::string::npos);
+      ++count;
+    }
+  CHECK(count == 3);
 }
 
 TEST_CASE("form: values out of range are refused with the words of the file reader") {
@@ -164,6 +193,7 @@ TEST_CASE("form: an optional key is taken back, and nothing else with it") {
       const Key& key = all[p].section->keys[k];
       if (!is_optional(key, usual[p].object)) continue;
       CAPTURE(all[p].title + "." + key.name);
+      if (needs_flight(all[p].title + "." + key.name)) continue;
       // The goal, which the mission's planner needs, is not taken back.
       if (key.name == "goal_m") {
         CHECK_FALSE(with_key(mission, {}, {p, k}, std::nullopt));
