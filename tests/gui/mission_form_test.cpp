@@ -61,7 +61,7 @@ bool needs_flight(const std::string& name) {
 
 /// Keys whose values must fit to those of others, or to files, and are tried by themselves below.
 bool depends(const std::string& name) {
-  for (const char* known : {"mission.world", "mission.world_image", "map.initial", "bumpers.sensors", "output.map_formats", "map.cell_bits", "planner.name", "planner.waypoint_speeds_m_s"})
+  for (const char* known : {"mission.world", "mission.world_image", "map.initial", "bumpers.sensors", "output.map_formats", "map.cell_bits", "planner.name", "planner.waypoint_speeds_m_s", "sar.enabled"})
     if (name == known) return true;
   if (needs_flight(name)) return true;
   // Of sensors: those that need another first.
@@ -116,7 +116,7 @@ TEST_CASE("form: keys of what flies can be set where it flies, and are refused w
       const std::string name = all[p].title + "." + key.name;
       if (!needs_flight(name) || key.name == "type") continue;
       CAPTURE(name);
-      const std::string typed = other_value(key, key.get(all[p].object));
+      const std::string typed = key.kind == KeyKind::flag ? "true" : other_value(key, key.get(all[p].object));
       CHECK(with_key(flying, {}, {p, k}, typed));
       const auto refused = with_key(driving, {}, {p, k}, typed);
       REQUIRE_FALSE(refused);
