@@ -8,6 +8,7 @@
 
 #include "thicket/base/document.hpp"
 #include "thicket/base/files.hpp"
+#include "thicket/sim/shipped.hpp"
 
 namespace thicket::gui {
 namespace {
@@ -39,18 +40,12 @@ bool can_open(const fs::path& file) {
 }
 
 void OpenDialog::list_shipped() {
-  const fs::path root = shipped_root();
-  std::error_code none;
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(root / "worlds" / "data", none))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
   std::vector<Row> worlds;
-  for (const fs::path& file : files) {
+  for (const fs::path& file : shipped_worlds()) {
     const auto document = read_document(file);
     if (!document) continue;
     const bool mission = document->find("world") != nullptr;
-    const std::string name = fs::relative(file, root / "worlds" / "data").replace_extension().generic_string();
+    const std::string name = fs::relative(file, shipped_worlds_root()).replace_extension().generic_string();
     (mission ? shipped_ : worlds).push_back({file, name, (mission ? "mission: " : "world: ") + text_of(*document, mission ? "description" : "name")});
   }
   shipped_.insert(shipped_.end(), worlds.begin(), worlds.end());

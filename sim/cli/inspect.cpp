@@ -11,6 +11,7 @@
 #include "thicket/base/text.hpp"
 #include "thicket/sim/check.hpp"
 #include "thicket/sim/scan_report.hpp"
+#include "thicket/sim/shipped.hpp"
 
 namespace thicket::cli {
 namespace {
@@ -70,11 +71,8 @@ namespace {
 
 /// Names of shipped worlds and missions as they are given on the command line: "rooms/u".
 std::vector<std::string> shipped_world_names() {
-  const auto root = shipped_root() / "worlds" / "data";
   std::vector<std::string> names;
-  std::error_code none;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(root, none))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().lexically_relative(root).replace_extension().generic_string());
+  for (const auto& file : shipped_worlds()) names.push_back(file.lexically_relative(shipped_worlds_root()).replace_extension().generic_string());
   return names;
 }
 
@@ -94,13 +92,8 @@ int check_file(const CheckArguments& arguments) {
 }
 
 int list_worlds() {
-  const auto root = shipped_root() / "worlds" / "data";
-  std::vector<std::filesystem::path> files;
-  std::error_code none;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(root, none))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  if (files.empty()) return complain({fmt::format("no shipped worlds were found in {}: set THICKET_DATA to the folder that holds worlds/data", root.string())});
-  std::sort(files.begin(), files.end());
+  const auto files = shipped_worlds();
+  if (files.empty()) return complain({fmt::format("no shipped worlds were found in {}: set THICKET_DATA to the folder that holds worlds/data", shipped_worlds_root().string())});
   std::string worlds, missions;
   for (const auto& file : files) {
     const auto document = read_document(file);

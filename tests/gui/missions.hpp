@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "thicket/base/files.hpp"
 #include "thicket/gui/runner.hpp"
+#include "thicket/sim/shipped.hpp"
 
 namespace thicket::gui {
 
@@ -23,9 +23,8 @@ inline std::shared_ptr<const Snapshot> opened(Runner& runner, const std::filesys
 /// All missions that are shipped, by name.
 inline std::vector<std::filesystem::path> shipped_missions() {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(shipped_root() / "worlds" / "data"))
-    if (entry.path().extension() == ".toml" && is_mission(entry.path())) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
+  for (const auto& file : shipped_worlds())
+    if (is_mission(file)) files.push_back(file);
   REQUIRE(files.size() > 10);
   return files;
 }

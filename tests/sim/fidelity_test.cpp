@@ -3,6 +3,7 @@
 
 #include "thicket/base/files.hpp"
 #include "thicket/sim/fidelity.hpp"
+#include "thicket/sim/shipped.hpp"
 #include "thicket/sim/simulation.hpp"
 
 namespace thicket {
@@ -12,9 +13,8 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> missions() {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(shipped_root() / "worlds" / "data"))
-    if (entry.path().extension() == ".toml" && is_mission(entry.path())) files.push_back(entry.path());
-  std::ranges::sort(files);
+  for (const auto& file : shipped_worlds())
+    if (is_mission(file)) files.push_back(file);
   return files;
 }
 
